@@ -8,7 +8,6 @@
 #include "apps/cli/exit_status.h"
 #include "apps/shared/application.h"
 #include "language/names.h"
-#include "output/files/csv.h"
 #include "output/files/file.h"
 #include "output/files/result_folder.h"
 #include "text/display.h"
@@ -63,35 +62,6 @@ struct Origin {
   bool unfinished = false;
 };
 
-/// The engines and laws of the rows of a table of results that ran; false where there is none.
-bool add_rows(Origin& origin, const std::filesystem::path& file) {
-  const std::optional<std::string> text = output::read_file(file);
-  const auto table = text ? output::parse_csv(*text) : std::nullopt;
-  if (!table) return false;
-  const auto status = std::ranges::find(table->header, "status");
-  const auto place = static_cast<std::size_t>(status - table->header.begin());
-  for (const std::vector<std::string>& row : table->rows) {
-    const bool ran = status == table->header.end() ||
-                     (!row[place].starts_with("skipped") && !row[place].starts_with("refused"));
-    for (std::size_t column = 0; ran && column < table->header.size(); ++column) {
-      const std::string& title = table->header[column];
-      if (title == "engine" || title == "law") origin.used.insert(title + " " + row[column]);
-    }
-  }
-  return true;
-}
-
-/// The words of `field = WORD, WORD;` in an experiment as it is printed.
-void add_words(Origin& origin, const std::string& text, const std::string& field,
-               const std::string& kind) {
-  const std::string key = field + " = ";
-  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at)) {
-    at += key.size();
-    for (const std::string& word : words_of(text.substr(at, text.find(';', at) - at)))
-      origin.used.insert(kind + " " + word);
-  }
-}
-
 /// What the results of a folder were made with, where it holds results.
 void add_folder(Origin& origin, const std::filesystem::path& folder) {
   const std::optional<output::Manifest> manifest = output::read_manifest(folder);
@@ -100,12 +70,14 @@ void add_folder(Origin& origin, const std::filesystem::path& folder) {
   origin.unfinished |= std::ranges::any_of(manifest->files, [](const auto& file) {
     return file.second.empty() && !file.first.ends_with('/');
   });
-  for (const auto& [what, value] : manifest->about)
+  // Of a run "engine" with its version and "law", of studies and tunings "engines" and "laws".
+  for (const auto& [what, value] : manifest->about) {
     if (what == "engine") origin.used.insert("engine " + value.substr(0, value.find(' ')));
-  if (add_rows(origin, folder / "results.csv")) return;
-  const std::string experiment = output::read_file(folder / "experiment.hook").value_or("");
-  add_words(origin, experiment, "engine", "engine");
-  add_words(origin, experiment, "contact", "law");
+    if (what == "law") origin.used.insert("law " + value);
+    for (const std::string kind : {"engine", "law"})
+      if (what == kind + "s")
+        for (const std::string& word : words_of(value)) origin.used.insert(kind + " " + word);
+  }
 }
 
 /// The same of a folder that holds several: a Matrix's, or that of a file with several studies.

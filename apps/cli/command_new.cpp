@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iostream>
 
 #include "apps/cli/commands.h"
 #include "apps/cli/exit_status.h"
 #include "apps/shared/application.h"
+#include "language/syntax/token.h"
 #include "output/files/file.h"
 #include "text/display.h"
 
@@ -15,33 +15,20 @@ namespace {
 /// Stands in a starter where the name belongs.
 constexpr std::string_view placeholder = "starter";
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_word_character(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_';
-}
-
-bool is_name(const std::string& word) {
-  return !word.empty() && !is_digit(word[0]) && std::ranges::all_of(word, is_word_character);
-}
-
 std::string named(std::string text, const std::string& name) {
   for (std::size_t at = text.find(placeholder); at != std::string::npos;
-       at = text.find(placeholder, at)) {
-    const std::size_t end = at + placeholder.size();
-    const bool whole = (at == 0 || !is_word_character(text[at - 1])) &&
-                       (end == text.size() || !is_word_character(text[end]));
-    if (whole) text.replace(at, placeholder.size(), name);
-    at += whole ? name.size() : placeholder.size();
-  }
+       at = text.find(placeholder, at + name.size()))
+    text.replace(at, placeholder.size(), name);
   return text;
 }
 
 }  // namespace
 
 int new_file(const NewArguments& arguments) {
-  if (!is_name(arguments.name)) {
-    application::print_error("`" + text::printable(arguments.name) +
-                             "` is no name: letters, digits and _, the first no digit");
+  if (!language::is_object_name(arguments.name)) {
+    application::print_error(
+        "`" + text::printable(arguments.name) +
+        "` is no name: letters, digits and _, the first no digit, and no word of the language");
     return wrong_input;
   }
   application::Application application;

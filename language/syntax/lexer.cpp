@@ -248,6 +248,11 @@ bool check_text(const SourceFile& file, Report& report) {
   return true;
 }
 
+bool is_object_name(std::string_view word) {
+  return !word.empty() && is_name_start(word[0]) && std::ranges::all_of(word, is_name) &&
+         std::ranges::find(reserved_words, word) == std::end(reserved_words);
+}
+
 std::vector<Token> tokenize(const SourceFile& file, bool comments, Report& report) {
   return Lexer(file, comments, report).run();
 }

@@ -51,6 +51,9 @@ enum class TokenKind : std::uint8_t {
 inline constexpr std::string_view reserved_words[] = {"Wire",    "Param",  "Let",
                                                       "Include", "Plugin", "For"};
 
+/// Whether the word may name an object: letters, digits and _, the first no digit, none of these.
+bool is_object_name(std::string_view word);
+
 struct Token {
   TokenKind kind = TokenKind::end;
   bool begins_line = false;  ///< the first of its line

@@ -9,6 +9,7 @@
 #include <locale>
 #include <sstream>
 
+#include "output/figures/terminal_lines.h"
 #include "output/files/csv.h"
 #include "text/number.h"
 
@@ -135,10 +136,9 @@ class HeatMapScript {
   void set_page() {
     const std::string shown = one_line(map_.name);
     out_ << "# Draws " << shown << ".svg from " << shown << ".csv: gnuplot " << shown
-         << ".gp\nset encoding utf8\nset terminal svg size " << width_ << "," << height_
-         << " enhanced font 'Helvetica,13' background '#ffffff' name " << gnuplot_quoted(map_.name)
-         << "\nset output " << gnuplot_quoted(map_.name + ".svg")
-         << "\nset datafile separator ','\nunset key\nset multiplot\n";
+         << ".gp\nset encoding utf8\n"
+         << svg_terminal(map_.name, width_, height_)
+         << "set datafile separator ','\nunset key\nset multiplot\n";
     page_label("{/:Bold " + gnuplot_escaped(typeset(map_.title)) + "}", height_ - 22., "15", "");
     if (!map_.subtitle.empty())
       page_label(gnuplot_escaped(typeset(map_.subtitle)), height_ - 43., "12", " tc rgb '#777777'");

@@ -89,37 +89,32 @@ PlotOutcome draw(const PanelPlot& plot, const std::filesystem::path& folder) {
   return draw_files(plot.name, panel_data(plot), panel_script(plot), folder);
 }
 
+GnuplotOutcome run_gnuplot(const std::filesystem::path& folder, const std::string& script,
+                           const std::string& drawing) {
+  const std::filesystem::path file = folder / drawing;
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  const std::optional<ChildResult> run =
+      run_program("gnuplot", {"--default-settings", script}, folder);
+  if (!run)
+    return {"", "gnuplot is not installed (Debian: gnuplot-nox), so " + drawing +
+                    " was not drawn; its data and script are in " + folder.string()};
+  std::string bytes = run->status == 0 ? read_file(file).value_or("") : "";
+  if (!bytes.empty()) return {std::move(bytes), ""};
+  std::filesystem::remove(file, ignored);
+  if (run->status != 0) return {"", "gnuplot could not draw " + file.string() + ": " + run->output};
+  return {"", "gnuplot drew nothing into " + file.string() + ": the figure has no point"};
+}
+
 PlotOutcome draw_files(const std::string& name, const std::string& data, const std::string& script,
                        const std::filesystem::path& folder) {
   if (!names_a_file(name)) throw FileError("`" + one_line(name) + "` is no name of a figure");
   write_file(folder / (name + ".csv"), data);
   write_file(folder / (name + ".gp"), script);
-  const std::filesystem::path svg = folder / (name + ".svg");
-  std::error_code ignored;
-  std::filesystem::remove(svg, ignored);  // an older drawing must not pass for this one
-  const std::optional<ChildResult> run =
-      run_program("gnuplot", {"--default-settings", name + ".gp"}, folder);
-  if (!run)
-    return {.drawn = false,
-            .message = "gnuplot is not installed (Debian: gnuplot-nox), so " + name +
-                       ".svg was not drawn; its data and script are in " + folder.string(),
-            .svg = ""};
-  if (run->status != 0) {
-    std::filesystem::remove(svg, ignored);
-    return {.drawn = false,
-            .message =
-                "gnuplot could not draw " + (folder / (name + ".gp")).string() + ": " + run->output,
-            .svg = ""};
-  }
-  std::string drawing = read_file(svg).value_or("");
-  if (drawing.empty()) {
-    std::filesystem::remove(svg, ignored);
-    return {.drawn = false,
-            .message = "gnuplot drew nothing from " + (folder / (name + ".gp")).string() +
-                       ": the figure has no point",
-            .svg = ""};
-  }
-  return {.drawn = true, .message = "", .svg = std::move(drawing)};
+  GnuplotOutcome outcome = run_gnuplot(folder, name + ".gp", name + ".svg");
+  return {.drawn = !outcome.drawing.empty(),
+          .message = std::move(outcome.message),
+          .svg = std::move(outcome.drawing)};
 }
 
 }  // namespace hookpoint::output

@@ -104,6 +104,15 @@ std::string panel_script(const PanelPlot& plot);
 /// into a paper (output/latex/).
 inline constexpr const char* figure_types[] = {".svg", ".csv", ".gp", ".pdf", ".tex"};
 
+/// Runs gnuplot in `folder` on `script`, a file from there on, which draws the file `drawing`; an older
+/// one must not pass for it.
+struct GnuplotOutcome {
+  std::string drawing;  ///< its bytes; "" when it could not be drawn
+  std::string message;  ///< why not
+};
+GnuplotOutcome run_gnuplot(const std::filesystem::path& folder, const std::string& script,
+                           const std::string& drawing);
+
 struct PlotOutcome {
   bool drawn = false;
   std::string message;  ///< why not; "" when drawn

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "output/figures/plot_axes.h"
+#include "output/figures/terminal_lines.h"
 #include "text/number.h"
 
 namespace hookpoint::output {
@@ -57,10 +58,7 @@ void PlotPage::open(const std::string& name, const std::string& title,
   const std::string shown = one_line(name);
   out_ << "# Draws " << shown << ".svg from " << shown << ".csv: gnuplot " << shown << ".gp\n"
        << "set encoding utf8\n"
-       << "set terminal svg size " << width_ << "," << height_
-       << " enhanced font 'Helvetica,13' background '#ffffff' name " << gnuplot_quoted(name) << "\n"
-       << "set output " << gnuplot_quoted(name + ".svg") << "\n"
-       << "set datafile separator ','\n"
+       << svg_terminal(name, width_, height_) << "set datafile separator ','\n"
        << "unset key\n";
   text(left_margin, height_ - 22., "{/:Bold " + gnuplot_escaped(typeset(title)) + "}",
        "font 'Helvetica,15'");

@@ -1,5 +1,6 @@
 #include "output/latex/latex.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <charconv>
@@ -126,6 +127,25 @@ std::string joined(const std::vector<std::string>& cells) {
   return line + " \\\\\n";
 }
 
+/// So many rows fit a page.
+constexpr std::size_t most_rows = 45;
+
+/// The tables "tab:LABEL-1", "tab:LABEL-2", a page each.
+std::string in_parts(const LatexTable& table) {
+  const std::size_t parts = (table.rows.size() + most_rows - 1) / most_rows;
+  std::string text;
+  for (std::size_t i = 0; i < parts; ++i) {
+    const auto begin = table.rows.begin() + static_cast<std::ptrdiff_t>(i * most_rows);
+    const auto left = static_cast<std::size_t>(table.rows.end() - begin);
+    LatexTable part = table;
+    part.rows = {begin, begin + static_cast<std::ptrdiff_t>(std::min(left, most_rows))};
+    part.label += "-" + std::to_string(i + 1);
+    part.caption += " Part " + std::to_string(i + 1) + " of " + std::to_string(parts) + ".";
+    text += latex_table(part);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string latex_text(std::string_view text) {
@@ -156,9 +176,10 @@ std::string latex_number(const std::optional<double>& value) {
 
 std::string latex_table(const LatexTable& table) {
   if (table.rows.empty() || table.head.size() <= table.text_columns) return "";
+  if (table.rows.size() > most_rows) return in_parts(table);
   constexpr std::size_t most_level = 8;  // columns whose titles lie
   const std::size_t columns = table.head.size();
-  std::string text = "\\begin{table}\n\\centering\n\\caption{" + latex_text(table.caption) +
+  std::string text = "\\begin{table}[htbp]\n\\centering\n\\caption{" + latex_text(table.caption) +
                      "}\n\\label{tab:" + table.label + "}\n\\vspace{1ex}\n";
   // No wider than the line.
   text += "\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{%\n";
@@ -178,7 +199,7 @@ std::string latex_table(const LatexTable& table) {
 }
 
 std::string latex_figure(const std::string& name, const std::string& caption) {
-  return "\\begin{figure}\n\\centering\n\\includegraphics[width=\\linewidth]{" + name +
+  return "\\begin{figure}[htbp]\n\\centering\n\\includegraphics[width=\\linewidth]{" + name +
          ".pdf}\n\\caption{" + latex_text(caption) + "}\n\\label{fig:" + name +
          "}\n\\end{figure}\n";
 }

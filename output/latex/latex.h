@@ -29,7 +29,7 @@ struct LatexTable {
 
 /// A `table` environment, with the rules of the package booktabs, no wider than the line; ""
 /// of a table without rows or numbers. Where it has more than eight columns their titles stand
-/// upright.
+/// upright; where it has more than 45 rows it is in several parts, tab:LABEL-1 and so on.
 std::string latex_table(const LatexTable& table);
 
 /// A `figure` environment with NAME.pdf. `caption` is plain text.
@@ -38,11 +38,15 @@ std::string latex_figure(const std::string& name, const std::string& caption);
 /// Types of the files that a table of results may leave: NAME.csv ...
 inline constexpr const char* table_types[] = {".csv", ".tex"};
 
-/// Names, without types, of the LaTeX that a study leaves beside that of its own tables and figures.
-inline constexpr std::array<std::string_view, 2> latex_names{"summary", "tables_and_figures"};
+/// Behind a number for which a truth does not hold.
+inline constexpr const char* latex_star = "$^{\\ast}$";
 
-/// A document that inputs these files, to compile as it is; and its name.
-inline constexpr const char* latex_document_file = "tables_and_figures.tex";
+/// Names, without types, of the LaTeX that a study leaves beside that of its own tables and figures.
+inline constexpr const char* latex_summary = "summary";
+inline constexpr const char* latex_document_name = "tables_and_figures";
+inline constexpr std::array<std::string_view, 2> latex_names{latex_summary, latex_document_name};
+
+/// A document that inputs these files, to compile as it is.
 std::string latex_document(const std::string& title, const std::vector<std::string>& names);
 
 }  // namespace hookpoint::output

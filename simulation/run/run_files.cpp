@@ -47,6 +47,7 @@ std::unique_ptr<output::ResultFolder> open_folder(const Experiment& experiment,
                     {"hookpoint", HOOKPOINT_VERSION},
                     {"program", output::hash_of_program()},
                     {"engine", engine_text(request.engine)}};
+  if (request.engine.name == "dts") manifest.about.emplace_back("law", experiment.contact);
   std::set<std::string> inputs = files_read(experiment);
   inputs.insert(request.sources.begin(), request.sources.end());
   manifest.inputs = hashed(inputs);

@@ -353,8 +353,8 @@ std::vector<output::ResultFile> linked_calibration_files(const CalibrationPlan& 
 
 std::vector<std::string> calibration_files(const CalibrationPlan& plan) {
   std::vector<std::string> files = output::names_of(linked_calibration_files(plan, {}, {}));
-  files.insert(files.end(),
-               {store_folder, "report.html", "calibration.tex", output::latex_document_file});
+  files.insert(files.end(), {store_folder, "report.html", "calibration.tex",
+                             std::string(output::latex_document_name) + ".tex"});
   for (const std::string& figure : calibration_figure_names(plan))
     for (const char* type : output::figure_types) files.push_back(figure + type);
   return files;

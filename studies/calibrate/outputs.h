@@ -45,7 +45,7 @@ std::string material_text(const CalibrationPlan& plan, const CalibrationSubject&
                           const SubjectCalibration& result, const std::string& command);
 
 /// Writes all of them that there are, figures and report.html too, and the folder's list of them.
-/// What could not be drawn comes back. Throws output::FileError.
+/// Returns the figures. Throws output::FileError.
 std::vector<ReportFigure> write_calibration(output::ResultFolder& folder,
                                             const CalibrationPlan& plan, const CalibrationRun& run,
                                             const std::string& command);

@@ -147,7 +147,7 @@ output::LatexTable latex_score_table(const WallResult& wall) {
       const bool shown = ran(cell) && cell.decades;
       table.rows.back().push_back(!shown ? "--"
                                          : output::latex_number(to_tenths(*cell.decades)) +
-                                               (cell.ok ? "" : "$^{\\ast}$"));
+                                               (cell.ok ? "" : output::latex_star));
     }
   }
   return table;

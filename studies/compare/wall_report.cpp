@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "language/names.h"
 #include "studies/compare/score_card.h"
@@ -214,6 +215,31 @@ std::string failures(const WallResult& wall, const TableStyle& style) {
   return text;
 }
 
+/// A truth over all subjects.
+struct LineSummary {
+  std::string scene, truth, expected, allowed;
+  std::string error;  ///< the largest; "none" where no run is judged
+  std::ptrdiff_t good = 0, judged = 0;
+  std::string verdicts() const { return fmt::format("{} of {}", good, judged); }
+};
+
+constexpr std::array line_titles{"scene",   "truth",         "closed form",
+                                 "allowed", "largest error", "hold"};
+
+std::vector<LineSummary> line_summaries(const WallResult& wall) {
+  std::vector<LineSummary> summaries;
+  for (const WallLine& line : wall.lines) {
+    const WallCell* worst = worst_cell(line);
+    summaries.push_back(
+        {wall.scenes[line.scene].name, line.name, expected_text(line), line.allowed,
+         worst != nullptr && worst->error ? error_text(line, *worst->error) : "none",
+         std::ranges::count_if(line.cells,
+                               [](const WallCell& cell) { return judged(cell) && cell.ok; }),
+         std::ranges::count_if(line.cells, judged)});
+  }
+  return summaries;
+}
+
 }  // namespace
 
 std::string wall_html(const WallResult& wall, const ReportContext& context,
@@ -234,28 +260,19 @@ std::string wall_html(const WallResult& wall, const ReportContext& context,
 
 std::string wall_terminal_table(const WallResult& wall, const TableStyle& style) {
   ColumnGroup group;
-  group.rows.push_back({{"scene", Tone::plain, false},
-                        {"truth", Tone::plain, false},
-                        {"closed form", Tone::plain, true},
-                        {"allowed", Tone::plain, true},
-                        {"largest error", Tone::plain, true},
-                        {"hold", Tone::plain, true}});
+  group.rows.emplace_back();
+  for (std::size_t i = 0; i < line_titles.size(); ++i)
+    group.rows.back().push_back({line_titles[i], Tone::plain, i > 1});
   std::string last;
-  for (const WallLine& line : wall.lines) {
-    const auto count = std::ranges::count_if(line.cells, judged);
-    const auto good = std::ranges::count_if(
-        line.cells, [](const WallCell& cell) { return judged(cell) && cell.ok; });
-    const WallCell* worst = worst_cell(line);
-    const std::string& scene = wall.scenes[line.scene].name;
-    group.rows.push_back(
-        {{scene == last ? "" : scene, Tone::plain, false},
-         {line.name, Tone::plain, false},
-         {expected_text(line), Tone::plain, true},
-         {line.allowed, Tone::plain, true},
-         {worst != nullptr && worst->error ? error_text(line, *worst->error) : "none", Tone::plain,
-          true},
-         {fmt::format("{} of {}", good, count), good == count ? Tone::good : Tone::bad, true}});
-    last = scene;
+  for (const LineSummary& line : line_summaries(wall)) {
+    const bool holds = line.good == line.judged;
+    group.rows.push_back({{line.scene == last ? "" : line.scene, Tone::plain, false},
+                          {line.truth, Tone::plain, false},
+                          {line.expected, Tone::plain, true},
+                          {line.allowed, Tone::plain, true},
+                          {line.error, Tone::plain, true},
+                          {line.verdicts(), holds ? Tone::good : Tone::bad, true}});
+    last = line.scene;
   }
   group.measure();
   std::string text = print_groups({&group}, style.color) + "\n" + failures(wall, style);
@@ -266,6 +283,25 @@ std::string wall_terminal_table(const WallResult& wall, const TableStyle& style)
                      wall.passed(), wall.passed() + wall.failed(), idle_words_after(wall),
                      wall.lines.size(), wall.scenes.size(), wall.subjects.size(),
                      left_out_words(wall));
+}
+
+output::LatexTable latex_wall_table(const WallResult& wall) {
+  output::LatexTable table{.name = output::latex_summary,
+                           .label = output::latex_summary,
+                           .caption =
+                               "Every truth: its closed form, the error that it allows, the "
+                               "largest one, and for how many subjects it holds.",
+                           .across = "",
+                           .head = {line_titles.begin(), line_titles.end()},
+                           .text_columns = 2,
+                           .rows = {}};
+  for (const LineSummary& line : line_summaries(wall)) {
+    table.rows.emplace_back();
+    for (const std::string& cell :
+         {line.scene, line.truth, line.expected, line.allowed, line.error, line.verdicts()})
+      table.rows.back().push_back(output::latex_text(cell));
+  }
+  return table;
 }
 
 }  // namespace hookpoint::studies

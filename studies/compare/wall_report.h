@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "output/latex/latex.h"
 #include "studies/compare/wall.h"
 #include "studies/report/report.h"
 #include "studies/report/terminal_table.h"
@@ -19,5 +20,8 @@ std::string wall_html(const WallResult& wall, const ReportContext& context,
 /// A line a truth: the closed form, how many subjects meet it and the largest error; then what does
 /// not hold, and the counts.
 std::string wall_terminal_table(const WallResult& wall, const TableStyle& style);
+
+/// The same lines as LaTeX.
+output::LatexTable latex_wall_table(const WallResult& wall);
 
 }  // namespace hookpoint::studies

@@ -15,15 +15,13 @@ namespace {
 
 using output::latex_number, output::latex_text, output::LatexTable;
 
-constexpr const char* starred = "$^{\\ast}$";
-
 /// Mean, with its interval where there are seeds, and closed form: "$1.2$ ($1.3$)".
 std::string cell_text(const PivotCell& cell) {
   if (cell.rows == 0) return "";
   std::string text = latex_number(cell.interval ? cell.interval->mean : cell.mean);
   if (cell.interval) text += " $\\pm$ " + latex_number(cell.interval->half_width);
   if (cell.predicted) text += " (" + latex_number(cell.predicted) + ")";
-  return text + (cell.failed > 0 ? starred : "");
+  return text + (cell.failed > 0 ? output::latex_star : "");
 }
 
 std::string caption_of(const Pivot& pivot) {
@@ -62,7 +60,7 @@ std::string summary_cell(const StudyResult& study, const MetricSummary& summary,
   const std::string text =
       value.predicted ? latex_number(value.measured) + " (" + latex_number(value.predicted) + ")"
                       : latex_number(summary.median);
-  return text + (summary.failed > 0 ? starred : "");
+  return text + (summary.failed > 0 ? output::latex_star : "");
 }
 
 /// So many metrics side by side fill a page's width.
@@ -81,8 +79,8 @@ std::vector<LatexTable> summaries(const StudyResult& study) {
           "median" +
           (varied.empty() ? "" : " over " + language::join(varied, ", ")) +
           ". *: a truth does not hold.";
-      LatexTable table{.name = "summary",
-                       .label = fmt::format("summary-{}", tables.size() + 1),
+      LatexTable table{.name = output::latex_summary,
+                       .label = fmt::format("{}-{}", output::latex_summary, tables.size() + 1),
                        .caption = std::move(caption),
                        .across = "",
                        .head = {"subject"},

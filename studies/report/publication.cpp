@@ -47,7 +47,8 @@ std::vector<std::string> write_publication(output::ResultFolder& folder, Publica
     }
   }
   if (forms.latex)
-    folder.write(output::latex_document_file, output::latex_document(publication.title, names));
+    folder.write(std::string(output::latex_document_name) + ".tex",
+                 output::latex_document(publication.title, names));
   folder.finish();
   return problems;
 }

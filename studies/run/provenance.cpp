@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <ctime>
+#include <set>
 #include <thread>
 
 #include "output/files/hash.h"
@@ -25,7 +26,27 @@ std::string utc_now() {
 
 }  // namespace
 
-output::Manifest manifest_of(const StudyPlan& plan) { return {plan.hash, {}, {}, {}}; }
+namespace {
+
+/// "dts, ode": of the subjects that run on this machine, each word once.
+std::string words_of(const StudyPlan& plan, std::string SubjectInfo::*word) {
+  std::vector<SubjectInfo> subjects = plan.compositions;
+  for (const SubjectPlan& subject : plan.subjects) subjects.push_back(subject.info);
+  std::set<std::string> words;
+  for (const SubjectInfo& subject : subjects)
+    if (subject.available && !(subject.*word).empty()) words.insert(subject.*word);
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+output::Manifest manifest_of(const StudyPlan& plan) {
+  return {plan.hash,
+          {{"engines", words_of(plan, &SubjectInfo::engine)},
+           {"laws", words_of(plan, &SubjectInfo::law)}},
+          {},
+          {}};
+}
 
 Provenance make_provenance(const StudyPlan& plan, const EngineTable& engines) {
   utsname host{};

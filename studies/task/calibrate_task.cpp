@@ -88,7 +88,7 @@ class CalibrateTask : public Task {
     constexpr std::size_t columns = 7;  // up to `identified`
     std::vector<SubjectInfo> subjects;
     for (const CalibrationSubject& subject : plan_.subjects) subjects.push_back(subject.info);
-    const std::string title = plan_.runs.title.empty() ? name() : plan_.runs.title;
+    const std::string title = title_or_name(plan_.runs.title);
     return {title,
             {latex_table_of("calibration",
                             title + ": fitted constants, with the ends of their 95 % intervals.",

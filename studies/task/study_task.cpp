@@ -46,7 +46,7 @@ std::vector<std::string> StudyTask::leave() {
 }
 
 Publication StudyTask::publication() const {
-  return {plan_.title.empty() ? name() : plan_.title, latex_tables(run_.result), report_.figures,
+  return {title_or_name(plan_.title), latex_tables(run_.result), report_.figures,
           origin_words(run_.provenance, run_.result.compositions)};
 }
 

@@ -163,6 +163,10 @@ class Task {
   /// The result as a paper takes it; after `leave`.
   virtual Publication publication() const { return {}; }
   virtual bool holds() const = 0;
+  /// The block's title, else its name.
+  std::string title_or_name(const std::string& title) const {
+    return title.empty() ? name_ : title;
+  }
 
   TaskHost& host_;
   const std::string command_;

@@ -86,7 +86,7 @@ class TuneTask : public Task {
   }
   Publication publication() const override {
     const TuneResult& result = run_.result;
-    const std::string title = plan_.title.empty() ? name() : plan_.title;
+    const std::string title = title_or_name(plan_.title);
     Publication publication{
         title, {}, figures_, origin_words(run_.provenance, {plan_.runs.subjects.front().info})};
     const auto add = [&](const std::string& table, const std::string& caption,

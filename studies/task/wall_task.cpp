@@ -80,9 +80,9 @@ class WallTask : public Task {
 
   Publication publication() const override {
     const WallResult& result = run_->result;
-    Publication publication{result.title.empty() ? name() : result.title, {}, {}, origin_};
+    Publication publication{title_or_name(result.title), {latex_wall_table(result)}, {}, origin_};
     if (card_) {
-      publication.tables = {latex_score_table(result)};
+      publication.tables.push_back(latex_score_table(result));
       publication.figures = {*card_};
     }
     return publication;

@@ -321,7 +321,7 @@ std::vector<output::ResultFile> linked_tune_files(const TunePlan& plan, const Tu
 std::vector<std::string> tune_files(const TunePlan& plan) {
   std::vector<std::string> files = output::names_of(linked_tune_files(plan, {}, {}));
   files.insert(files.end(), {store_folder, "report.html", "pareto.tex", "sobol.tex",
-                             output::latex_document_file});
+                             std::string(output::latex_document_name) + ".tex"});
   for (const std::string& figure : tune_figure_names(plan))
     for (const char* type : output::figure_types) files.push_back(figure + type);
   return files;

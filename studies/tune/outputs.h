@@ -31,8 +31,8 @@ std::string material_text(const TunePlan& plan, const TuneResult& result,
 /// "materials/clay_tuned.hook".
 std::string material_file(const TunePlan& plan);
 
-/// Writes all of them, figures and report.html too, and the folder's list of them. What could not
-/// be drawn comes back. Throws output::FileError.
+/// Writes all of them, figures and report.html too, and the folder's list of them. Returns the
+/// figures. Throws output::FileError.
 std::vector<ReportFigure> write_tuning(output::ResultFolder& folder, const TunePlan& plan,
                                        const TuneRun& run, const std::string& command);
 

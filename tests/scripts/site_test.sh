@@ -32,6 +32,7 @@ assert site.as_python_markdown("[gone.md](gone.md)", pages) == "[gone.md](gone.m
 text = site.as_python_markdown("see [other.md](other.md#x):\n- one\n  - two\n```cpp a.cpp\n- no item\n```", pages)
 assert text == 'see [The other page](other.md#x):\n\n- one\n    - two\n```cpp title="a.cpp"\n- no item\n```', text
 assert list(site.dead_links(pages)) == ["index.html: #there: no such heading", "index.html: no.html: no such file"]
+assert "docs/faq.md: not in the navigation of docs/site/mkdocs.yml" in site.unlisted("docs/README.md")
 print("right")
 PYTHON
 )" right

@@ -14,6 +14,11 @@ inline std::string read_file(const std::filesystem::path& path) {
   return output::read_file(path).value_or("");
 }
 
+/// Whether `part` stands in `text`.
+inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// How often `part` stands in `text`.
 inline std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;

@@ -14,11 +14,8 @@ namespace hookpoint {
 namespace {
 
 using testing::CommandResult;
+using testing::has;
 using testing::Workplace;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// The second column of a record, which follows the time.
 std::vector<double> second_column(const std::string& csv) {

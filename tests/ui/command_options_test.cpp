@@ -24,14 +24,11 @@ namespace {
 using testing::CommandResult;
 using testing::config;
 using testing::count;
+using testing::has;
 using testing::Workplace;
 namespace fs = std::filesystem;
 
 const std::string block = config("scenes/sloped_block.hook");
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 

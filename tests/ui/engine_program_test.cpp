@@ -16,6 +16,7 @@ namespace hookpoint {
 namespace {
 
 using testing::CommandResult;
+using testing::has;
 using testing::Workplace;
 namespace fs = std::filesystem;
 
@@ -56,10 +57,6 @@ class EngineProgram : public ::testing::Test {
 
   Workplace place;
 };
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 TEST_F(EngineProgram, NoneIsStartedWithoutPermission) {
   const std::string started = here() + "/started";

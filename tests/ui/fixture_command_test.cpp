@@ -20,11 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::CommandResult;
 using testing::config;
+using testing::has;
 using testing::Workplace;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 std::vector<std::vector<std::string>> rows_of(const std::string& csv) {
   std::vector<std::vector<std::string>> rows;

@@ -44,7 +44,7 @@ TEST_P(ManualExamples, EveryCommandOfThePageWorks) {
   for (const std::string& command : commands) {
     ASSERT_TRUE(command.starts_with("hookpoint ")) << command;
     const CommandResult ran = place.hookpoint(command.substr(std::string("hookpoint ").size()));
-    if (ran.status == 3) continue;  // an engine that is not on this machine
+    if (ran.status == 3 && testing::has(ran.err, "engine")) continue;  // one that is not found
     EXPECT_EQ(ran.status, 0) << command << "\n" << ran.err;
   }
 }

@@ -6,17 +6,16 @@
 #include <string>
 
 #include "tests/support/command.h"
+#include "tests/support/text.h"
+#include "text/json_reader.h"
 
 namespace hookpoint {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::CommandResult;
+using testing::has;
 using testing::Workplace;
-
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 /// Two laws on two slopes; names and titles that TeX would obey.
 constexpr const char* creep = R"(
@@ -155,6 +154,34 @@ TEST(Citation, IsOfTheProgramAndOfWhatMadeTheResults) {
   const CommandResult none = place.hookpoint("cite empty");
   EXPECT_EQ(none.status, 2);
   EXPECT_TRUE(has(none.err, "holds no results")) << none.err;
+}
+
+TEST(Citation, EveryEngineAndLawHasAnEntry) {
+  const Workplace place;
+  const std::string entries =
+      testing::read_file(testing::source_folder() + "/configs/citations.bib");
+  const auto list = text::read_json(place.hookpoint("engines --json").out);
+  ASSERT_TRUE(list);
+  int count = 0;
+  for (const auto& [kinds, kind] : {std::pair{"engines", "engine "}, std::pair{"laws", "law "}})
+    for (const text::JsonValue& each : list->member(kinds)->items()) {
+      const std::string keyword = kind + each.member("name")->text();
+      const bool listed = has(entries, "{" + keyword + "}") || has(entries, keyword + ",") ||
+                          has(entries, ", " + keyword + "}");
+      EXPECT_TRUE(listed) << keyword;
+      ++count;
+    }
+  EXPECT_GE(count, 17);
+}
+
+TEST(Publication, AWallLeavesItsTruthsAndItsCard) {
+  const Workplace place;
+  const CommandResult ran =
+      place.hookpoint("fixture run hookpoint impulse --latex --jobs 2 --out card");
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_TRUE(has(place.read("card/summary.tex"), "scene & truth & closed form & "));
+  EXPECT_TRUE(has(place.read("card/scores.tex"), "truth & hookpoint & impulse \\\\"));
+  EXPECT_EQ(place.read("card/score_card.pdf").substr(0, 5), "%PDF-");
 }
 
 }  // namespace

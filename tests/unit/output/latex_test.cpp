@@ -7,6 +7,8 @@
 #include <random>
 #include <string>
 
+#include "tests/support/text.h"
+
 namespace hookpoint::output {
 namespace {
 
@@ -75,6 +77,22 @@ TEST(Latex, ATableWithoutRowsOrNumbersIsNone) {
   EXPECT_EQ(latex_table(table), "");
 }
 
+TEST(Latex, ALongTableIsInPartsThatHaveEveryRowOnce) {
+  LatexTable table{.name = "t",
+                   .label = "t",
+                   .caption = "c.",
+                   .across = "",
+                   .head = {"a", "b"},
+                   .text_columns = 1,
+                   .rows = {}};
+  for (int i = 0; i < 100; ++i) table.rows.push_back({"row" + std::to_string(i) + "x", "$1$"});
+  const std::string text = latex_table(table);
+  EXPECT_EQ(testing::count(text, "\\begin{table}"), 3u);
+  EXPECT_EQ(testing::count(text, "\\label{tab:t-3}"), 1u);
+  for (int i = 0; i < 100; ++i)
+    EXPECT_EQ(testing::count(text, "row" + std::to_string(i) + "x"), 1u) << i;
+}
+
 TEST(Latex, ATableHasItsRulesAndEveryCell) {
   const LatexTable table{.name = "t",
                          .label = "t",
@@ -84,7 +102,7 @@ TEST(Latex, ATableHasItsRulesAndEveryCell) {
                          .text_columns = 1,
                          .rows = {{"a", "$1$", "$2$"}, {"b", "$3$", "--"}}};
   EXPECT_EQ(latex_table(table),
-            "\\begin{table}\n\\centering\n\\caption{50 \\%}\n\\label{tab:t}\n\\vspace{1ex}\n"
+            "\\begin{table}[htbp]\n\\centering\n\\caption{50 \\%}\n\\label{tab:t}\n\\vspace{1ex}\n"
             "\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{%\n"
             "\\begin{tabular}{lrr}\n\\toprule\n & \\multicolumn{2}{c}{slope} \\\\\n"
             "\\cmidrule(lr){2-3}\nsubject & 5 deg & 10 deg \\\\\n\\midrule\na & $1$ & $2$ \\\\\n"
