@@ -4,9 +4,10 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/support.sh"
 project="$work/project"
 mkdir -p "$project/.ci" "$project/scripts"
-cp "$root"/.ci/{run,full,quick,parts.sh,unexpected_skips,expected_skips} "$project/.ci/"
+cp "$root"/.ci/{run,full,quick,parts.sh,expected_skips} "$project/.ci/"
 export GIT_AUTHOR_NAME=a GIT_AUTHOR_EMAIL=a@b GIT_COMMITTER_NAME=a GIT_COMMITTER_EMAIL=a@b GIT_CONFIG_GLOBAL=/dev/null
 git init -q "$project"
+echo build >"$project/.gitignore"
 # commit: all that is there.
 commit() {
   git -C "$project" add -A
@@ -50,8 +51,13 @@ expect "all well: status" "$status" 0
 expect "all well: last line" "$(tail -n 1 <<<"$said")" "21 passed, 0 failed, 0 skipped"
 says_line "all well: a part" "release: 10 passed, 0 failed, 0 skipped"
 run full
-expect "all well, everything: last line" "$(tail -n 1 <<<"$said")" "35 passed, 0 failed, 0 skipped"
-expect "a whole run is written down" "$(sed -n 's/^commit: //p' "$project/.ci/last_full.md")" "$(git -C "$project" rev-parse HEAD)"
+expect "all well, everything: last line" "$(tail -n 1 <<<"$said")" "34 passed, 0 failed, 0 skipped"
+# row PART: what is recorded of it.
+row() { sed -nE "s/^\| $1 \| (.*) \| [0-9]+ min [0-9]+ s \|$/\1/p" "$project/.ci/last_full.md"; }
+head() { git -C "$project" rev-parse HEAD; }
+first=$(head)
+expect "each part's result is recorded" "$(row release)" "$first | 10 | 0 | 0"
+expect "each part has a row" "$(grep -c "$first" "$project/.ci/last_full.md")" 7
 
 # What changed since then decides which of its parts are added.
 commit
@@ -67,6 +73,25 @@ echo '#include <zlib.h>' >>"$project/studies/a.cpp"
 commit
 run run
 expect "a new header: a bare machine" "$(grep -c '^clean_room: 1 passed' <<<"$said")" 1
+
+# A part run by itself moves its own row alone.
+run full clean_room
+expect "one part: its row" "$(row clean_room)" "$(head) | 1 | 0 | 0"
+expect "one part: the others' rows" "$(row tidy)" "$first | 1 | 0 | 0"
+commit
+run run
+expect "one part: it is not run again" "$(grep -c '^clean_room' <<<"$said" || true)" 0
+expect "one part: the others are" "$(grep -c '^tidy: 1 passed' <<<"$said")" 1
+echo 'int b;' >>"$project/studies/a.cpp"
+recorded=$(row clean_room)
+run full clean_room
+expect "files that differ from the commit leave no row" "$(row clean_room)" "$recorded"
+commit
+says scripts/tidy 1 "a.cpp:1:1: error: no"
+commit
+run full tidy
+run run
+expect "a part that failed is no base" "$(grep -c '^tidy' <<<"$said" || true)" 0
 
 begin
 says test 1 "failed: a_test: Suite.Case
@@ -118,7 +143,7 @@ says test 0 "skipped: a_test: Suite.Case: it is raining
 skipped: b_test: Suite.Case: engine dart is not found
 9 passed, 0 failed, 2 skipped"
 run full
-says_line "everything: an unexpected skip fails" "failed: skips: skipped: a_test: Suite.Case: it is raining"
+says_line "everything: an unexpected skip fails" "failed: release: skipped: a_test: Suite.Case: it is raining"
 expect "everything: an expected skip does not" "$(grep -c b_test <<<"$said" || true)" 0
 
 begin
