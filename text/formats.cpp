@@ -59,7 +59,7 @@ constexpr std::array table{
     Format{"MJCF", "the format of MuJoCo", Holds::robot, Sign::element, "mujoco|mujocoinclude",
            ".mjcf", bit(Use::experiment)},
     Format{"SDF", "the format of Gazebo", Holds::robot, Sign::element, "sdf|gazebo", ".sdf|.world",
-           read_nowhere},
+           bit(Use::experiment)},
     Format{"SRDF", "the groups of MoveIt, beside a URDF", Holds::robot, Sign::element, "robot",
            ".srdf", read_nowhere, Shown::by_both},
     Format{"URDF", "", Holds::robot, Sign::element, "robot", ".urdf|.xacro", bit(Use::experiment)},
@@ -270,7 +270,8 @@ const Format* find(std::string_view content, const std::filesystem::path& name) 
 std::string_view read_there(Use use) {
   switch (use) {
     case Use::experiment:
-      return "expected a file of the language (.hook), a URDF (.urdf, .xacro) or an MJCF (.xml)";
+      return "expected a file of the language (.hook), a URDF (.urdf, .xacro), an MJCF (.xml) or an SDF "
+             "(.sdf, .world)";
     case Use::mesh:
       return "meshes are read from STL, OBJ and DAE (Collada) files";
     case Use::heights:
@@ -290,7 +291,7 @@ std::string_view advice(const Format& format, Use use) {
   if (use == Use::series) return "save the columns as CSV";
   switch (format.holds) {
     case Holds::robot:
-      return "take the robot's URDF or MJCF, or convert it to one, and Include that";
+      return "take the robot's URDF, MJCF or SDF, or convert it to one, and Include that";
     case Holds::mesh:
       return "a mesh is the <mesh> of a link of a URDF";
     case Holds::image:

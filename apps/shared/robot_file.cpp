@@ -120,9 +120,11 @@ std::optional<RobotWorld> world_of_robot(Application& application,
   const auto robots = alone->children_of("Robot");
   if (robots.empty()) return std::nullopt;
 
-  const bool stands = std::ranges::any_of(robots, [](const language::Object* robot) {
-    return robot->children_of("Base.fixed").empty();
-  });
+  // A file of another format may hold the ground, too.
+  const bool stands = alone->children_of("Terrain.").empty() &&
+                      std::ranges::any_of(robots, [](const language::Object* robot) {
+                        return robot->children_of("Base.fixed").empty();
+                      });
   const std::filesystem::path place =
       file.parent_path() / (file.stem().string() + "_on_a_plane.hook");
   const auto best = Trials(file, place, stands, consent).best();

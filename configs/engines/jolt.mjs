@@ -32,17 +32,19 @@ class Scratch {
 const list = v => [v.GetX(), v.GetY(), v.GetZ()];
 const turn = q => [q.GetW(), q.GetX(), q.GetY(), q.GetZ()];
 
-// Shapes meet the ground, points without a size the ground that is lowered for them.
-const layers = {shapes: 0, ground: 1, points: 2, lowered: 3};
+// Shapes meet the ground, points without a size planes that are lowered for them, and ground that is no plane.
+const layers = {shapes: 0, ground: 1, points: 2, lowered: 3, uneven: 4};
 
 function world_of(scratch) {
   const count = Object.keys(layers).length;
   const pairs = new jolt.ObjectLayerPairFilterTable(count);
   pairs.EnableCollision(layers.shapes, layers.ground);
   pairs.EnableCollision(layers.points, layers.lowered);
+  pairs.EnableCollision(layers.shapes, layers.uneven);
+  pairs.EnableCollision(layers.points, layers.uneven);
   const broad = new jolt.BroadPhaseLayerInterfaceTable(count, 2);
   for (const [name, layer] of Object.entries(layers))
-    broad.MapObjectToBroadPhaseLayer(layer, scratch.keep(new jolt.BroadPhaseLayer(name === "ground" || name === "lowered" ? 0 : 1)));
+    broad.MapObjectToBroadPhaseLayer(layer, scratch.keep(new jolt.BroadPhaseLayer(name === "shapes" || name === "points" ? 1 : 0)));
   const settings = scratch.keep(new jolt.JoltSettings());
   settings.mMaxWorkerThreads = 0;
   settings.mObjectLayerPairFilter = pairs;
@@ -69,7 +71,7 @@ class World extends RigidBodyWorld {
     this.add_ground(
       (half, position, turned, is_lowered) =>
         this.add_piece(scratch, new jolt.BoxShapeSettings(scratch.vec(half), 0), position, turned, is_lowered ? layers.lowered : layers.ground),
-      (piece, position, turned) => this.add_piece(scratch, this.shape(scratch, piece), position, turned, layers.ground));
+      (piece, position, turned) => this.add_piece(scratch, this.shape(scratch, piece), position, turned, layers.uneven));
     this.numbers = new Map();  // of bodies, by Jolt's own
     this.bodies = experiment.bodies.map((body, i) => this.add_body(scratch, body, i));
     this.joints = experiment.joints.map(joint => this.add_joint(scratch, joint));

@@ -28,8 +28,8 @@ const rotation = q => ({w: q[0], x: q[1], y: q[2], z: q[3]});
 const list = v => [v.x, v.y, v.z];
 const turn = q => [q.w, q.x, q.y, q.z];
 
-// Who meets whom: shapes the ground, points without a size the ground that is lowered for them.
-const shapes = 1, ground = 2, points = 4, lowered = 8;
+// Who meets whom: shapes the ground, points without a size planes that are lowered for them, and ground that is no plane.
+const shapes = 1, ground = 2, points = 4, lowered = 8, uneven = 16;
 const groups = (own, others) => own << 16 | others;
 
 function shape_of(shape) {
@@ -57,7 +57,7 @@ class World extends RigidBodyWorld {
       this.world.createCollider(this.surface(shape, 1, 1).setTranslation(...position).setRotation(rotation(turned)).setCollisionGroups(groups(own, others)), fixed);
     this.add_ground(
       (half, position, turned, is_lowered) => add(rapier.ColliderDesc.cuboid(...half), position, turned, is_lowered ? lowered : ground, is_lowered ? points : shapes),
-      (piece, position, turned) => add(shape_of(piece), position, turned, ground, shapes | points));
+      (piece, position, turned) => add(shape_of(piece), position, turned, uneven, shapes | points));
     this.bodies = experiment.bodies.map(body => this.add_body(body));
     this.joints = experiment.joints.map(joint => this.add_joint(joint));
   }
@@ -81,7 +81,7 @@ class World extends RigidBodyWorld {
       const contact = contact_of(this.experiment, collider.material, this.ground);
       const shape = this.surface(shape_of(collider), contact?.kinetic_friction ?? 0, contact?.restitution ?? 0);
       shape.setTranslation(...collider.position).setRotation(rotation(collider_turn(collider)));
-      shape.setCollisionGroups(is_bare_point(collider) ? groups(points, lowered) : groups(collider.type === "point" ? points : shapes, ground));
+      shape.setCollisionGroups(is_bare_point(collider) ? groups(points, lowered | uneven) : groups(shapes, ground | uneven));
       return this.world.createCollider(shape, made);
     });
     return {made, colliders, mass: body.mass, center: body.center_of_mass, mobile: body.mobile};

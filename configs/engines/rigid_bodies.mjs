@@ -42,6 +42,9 @@ export class RigidBodyWorld {
   /** Pieces of the ground: add_box(half_sizes, position, turn, is_lowered) for planes, of which there are none here, add(shape, position, turn) for others. */
   add_ground(add_box, add) {
     const wide = 100, deep = 5;
+    // Triangles have no inside: a ball whose centre is on them falls through.
+    if (this.experiment.ground.some(piece => piece.type === "triangles") && this.experiment.bodies.some(body => body.colliders.some(is_bare_point)))
+      refuse("points without a size fall through ground that is no plane in this engine: give the ContactPoints a radius, or write touch = shapes");
     for (const piece of this.experiment.ground)
       if (piece.type === "plane") {
         for (const down of [0, point_radius])

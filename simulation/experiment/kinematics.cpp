@@ -7,6 +7,11 @@ Pose operator*(const Pose& X_AB, const Pose& X_BC) {
           X_AB.orientation * X_BC.orientation};
 }
 
+Pose inverse(const Pose& X_AB) {
+  const Quaterniond back = conjugate(X_AB.orientation);
+  return {-rotate(back, X_AB.position), back};
+}
+
 Pose joint_pose(const LinkSpec& link) {
   const bool turns = joint_type(link.joint).turns;
   const double theta = link.theta + (turns ? link.angle : 0.);

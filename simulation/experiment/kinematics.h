@@ -15,6 +15,8 @@ struct Pose {
 
 /// X_AC = X_AB X_BC.
 Pose operator*(const Pose& X_AB, const Pose& X_BC);
+/// X_BA.
+Pose inverse(const Pose& X_AB);
 
 /// The link's frame in the one before it, at its initial joint angle: its fixed transform, then
 /// Rot_x(alpha) Trans_x(a) Rot_z(theta) Trans_z(d).

@@ -2,6 +2,7 @@
 
 #include "simulation/scene/absent.h"
 #include "simulation/scene/mjcf/mjcf.h"
+#include "simulation/scene/sdf/sdf.h"
 #include "simulation/scene/urdf/urdf.h"
 
 namespace hookpoint::simulation {
@@ -27,6 +28,7 @@ void make_readable(language::ClassSchema& schema) {
 void add_experiment_classes(language::Schema& schema, const PeerChoices& peers) {
   for (const char* ending : {".urdf", ".xacro"}) schema.add_reader(ending, include_urdf);
   schema.add_reader(".mjcf", include_mjcf);
+  schema.add_reader(".sdf", include_sdf);
   add_absent_words();
   language::Schema classes;
   add_world_classes(classes, peers);

@@ -19,6 +19,7 @@
 #include "output/records/spool.h"
 #include "simulation/run/changes.h"
 #include "simulation/scene/mjcf/mjcf.h"
+#include "simulation/scene/sdf/sdf.h"
 #include "simulation/scene/terrain/ascii_grid.h"
 #include "simulation/scene/terrain/png_grid.h"
 #include "simulation/scene/urdf/hull.h"
@@ -130,6 +131,7 @@ void read_meshes(const std::string& bytes) {
 void read_robot(const std::string& bytes) {
   read_robot_by(simulation::include_urdf, bytes);
   read_robot_by(simulation::include_mjcf, bytes);
+  read_robot_by(simulation::include_sdf, bytes);
   read_meshes(bytes);
 }
 

@@ -13,6 +13,7 @@
 #include "reference/process/engine.h"
 #include "tests/support/folders.h"
 #include "tests/support/reference_robots.h"
+#include "tests/support/text.h"
 
 namespace hookpoint {
 namespace {
@@ -141,6 +142,61 @@ TEST_F(ProgramEngineTest, WhatBouncesKeepsThePartThatItsMaterialSays) {
       const double after = world->state().bodies[0].velocity.z;
       EXPECT_NEAR(after / -before, restitution, 0.04) << file;
     }
+}
+
+/// Stands on four points of that radius, on a grid of heights or on an obstacle.
+simulation::Experiment block_on_points(double radius, bool on_grid) {
+  const double angle = on_grid ? 5. * degree : 0.;
+  simulation::Experiment experiment = sloped_block(angle, 0., 0.8, 1e-3);
+  simulation::RobotSpec& robot = experiment.robots[0];
+  const Vector3d half = 0.5 * std::get<simulation::Box>(robot.base.shapes[0].geometry).dimensions;
+  robot.base.shapes.clear();
+  for (const double x : {-half.x, half.x}) {
+    for (const double y : {-half.y, half.y}) {
+      robot.base.boundary_points.push_back({x, y, -half.z});
+      if (radius > 0.) robot.base.boundary_radii.push_back(radius);
+    }
+  }
+  const double raised = radius + 2e-3;
+  robot.location = (half.z + raised) * slope_axes(angle, 0.).normal;
+  if (on_grid) {
+    // Rough by a hair, since what is a plane is one to an engine.
+    experiment.terrain = tilted_grid(angle);
+    std::get<simulation::GridSpec>(experiment.terrain->surface).heights.front() += 1e-3;
+    experiment.touch = "points";
+  } else {
+    simulation::ObstacleSpec& table = experiment.obstacles.emplace_back();
+    table.name = "table";
+    table.geometry = simulation::Box{{2., 2., 0.2}};
+    table.location = {0., 0., 1.};
+    experiment.touch = "shapes";
+    robot.location = robot.location + Vector3d{0., 0., 1.1};
+  }
+  return experiment;
+}
+
+// A point without a size is a ball of 1 mm there: it stands on solids, and on triangles, which have no
+// inside, it is refused.
+TEST_F(ProgramEngineTest, PointsStandOnGroundThatIsNoPlaneOrAreRefused) {
+  for (const char* file : {"rapier.hook", "jolt.hook"}) {
+    const reference::ProgramEngine engine(definition(file));
+    try {
+      const auto world = engine.make(block_on_points(0., true));
+      ADD_FAILURE() << file;
+    } catch (const std::exception& refused) {
+      EXPECT_TRUE(testing::has(refused.what(), "give the ContactPoints a radius"))
+          << refused.what();
+    }
+    const double radius = 0.02;
+    const auto on_grid = engine.make(block_on_points(radius, true));
+    ASSERT_TRUE(run_until(*on_grid, 1e-3, 1.)) << file;
+    EXPECT_NEAR(dot(on_grid->state().bodies[0].position, slope_axes(5. * degree, 0.).normal),
+                0.05 + radius, 1e-3)
+        << file;
+    const auto on_table = engine.make(block_on_points(0., false));
+    ASSERT_TRUE(run_until(*on_table, 1e-3, 1.)) << file;
+    EXPECT_NEAR(on_table->state().bodies[0].position.z, 1.1 + 0.05 + 1e-3, 0.5e-3) << file;
+  }
 }
 
 // Iterations hold their joints together: at rest, solved to the end, over a step so long that single

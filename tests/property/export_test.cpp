@@ -1,4 +1,4 @@
-// hookpoint export: a robot written as MJCF or URDF and read again has the same free accelerations.
+// hookpoint export: a robot written as MJCF, URDF or SDF and read again has the same free accelerations.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -143,6 +143,33 @@ TEST(Export, RobotsOfTheScenesComeBack) {
   EXPECT_GE(judged, 4);
 }
 
+// SDF has neither rotors nor links without mass.
+TEST(Export, DrawnRobotsComeBackFromSdf) {
+  RandomMjcf random(8);
+  int judged = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Loaded loaded = read_again("robot.xml", random.robot(2 + i % 8));
+    ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+    simulation::Experiment experiment = *loaded.experiment;
+    bool all_heavy = true;
+    for (simulation::ChainSpec& chain : experiment.robots[0].chains) {
+      for (simulation::LinkSpec& link : chain.links) {
+        link.rotor_inertia = 0.;
+        all_heavy = all_heavy && link.body.mass.mass > 0.;
+      }
+    }
+    if (!all_heavy) continue;
+    ++judged;
+    const std::string text = written(translation::sdf_format, experiment);
+    const Loaded again = read_again("robot.sdf", text);
+    ASSERT_TRUE(again.experiment) << again.diagnostics << text;
+    const simulation::RobotSpec &robot = experiment.robots[0], &other = again.experiment->robots[0];
+    EXPECT_NEAR(simulation::moving_mass(other), simulation::moving_mass(robot), 1e-12);
+    EXPECT_LE(worst(robot, other, joints_of(experiment, other), unsigned(i)), 1e-12) << text;
+  }
+  EXPECT_GE(judged, 10);
+}
+
 // What a joint has, and the state at the start as a keyframe.
 TEST(Export, JointsAndTheStartAreTheSame) {
   const Loaded loaded = load_text(
@@ -174,7 +201,7 @@ TEST(Export, JointsAndTheStartAreTheSame) {
       1e-15);
 }
 
-// SDF has no reader here: its frames are put together as SDFormat says, each in the one that it names.
+// Frames put together as SDFormat says, each in the one that it names, without our reader.
 TEST(Export, LinksOfAnSdfStandWhereOursDo) {
   RandomMjcf random(8);
   for (int i = 0; i < 20; ++i) {
@@ -213,7 +240,12 @@ TEST(Export, LinksOfAnSdfStandWhereOursDo) {
     double mass = 0.;
     for (const pugi::xml_node& link : model.children("link"))
       mass += link.child("inertial").child("mass").text().as_double();
-    EXPECT_NEAR(mass, simulation::robot_mass(robot), 1e-12);
+    // SDF has no link without mass: those are 1 mg.
+    double added = 0.;
+    simulation::for_each_link(robot, [&](const simulation::TreeLink& at) {
+      if (at.link.body.mass.mass == 0.) added += 1e-6;
+    });
+    EXPECT_NEAR(mass, simulation::robot_mass(robot) + added, 1e-12);
     EXPECT_EQ(std::distance(model.children("joint").begin(), model.children("joint").end()),
               static_cast<std::ptrdiff_t>(simulation::joint_count(robot)));
   }

@@ -160,7 +160,7 @@ TEST(Urdf, LimitsDampingFrictionAndEffortComeAlong) {
   EXPECT_EQ(
       loaded.diagnostics,
       "error 1:77 the robot takes no argument `yaw_is_none`; it takes name, base, shapes, "
-      "meshes, mimic, lock, inertia, hold, rotor_inertia, fields of its base, and the names of its moving "
+      "meshes, contact, mimic, lock, inertia, hold, rotor_inertia, fields of its base, and the names of its moving "
       "joints\n");
   const Loaded good = load_urdf(
       robot(link_l + joint("knee", "revolute",
@@ -455,10 +455,10 @@ const Case cases[] = {
      "error 7:2 the name `j_1` is taken\nnote 5:2 `j_1` is this Chain\n"},
     {"no_xml", "<robot name=\"r\">\n<link name=\"l\"></robot>",
      "error 2:18 this is not XML: Start-end tags mismatch\n"},
-    {"no_urdf", "<sdf/>",
-     "error 1:1 this is SDF (the format of Gazebo), which is not read here: expected a file of the "
-     "language (.hook), a URDF (.urdf, .xacro) or an MJCF (.xml); take the robot's URDF or MJCF, or "
-     "convert it to one, and Include that\n"},
+    {"no_urdf", "<skel/>",
+     "error 1:1 this is a model of DART, which is not read here: expected a file of the language "
+     "(.hook), a URDF (.urdf, .xacro), an MJCF (.xml) or an SDF (.sdf, .world); take the robot's "
+     "URDF, MJCF or SDF, or convert it to one, and Include that\n"},
     {"empty", "", "error 1:1 this is not XML: No document element found\n"},
     {"xacro", robot("<xacro:property name=\"x\" value=\"1\"/>"),
      "error 3:2 the macros of xacro need its program, which is not installed: it comes with ROS "

@@ -112,7 +112,13 @@ class Sdf {
     const TreeBody& body = tree_.body(index);
     const pugi::xml_node link = element(model, "link", {{"name", tree_.name(index)}});
     if (!parent.empty()) write_pose(link, body.X_PL0, parent);
-    const simulation::MassSpec& mass = body.body->mass;
+    simulation::MassSpec mass = body.body->mass;
+    // Where nothing is written, SDF has 1 kg.
+    constexpr double least_mass = 1e-6, least_inertia = 1e-9;
+    if (mass.mass == 0. && !parent.empty()) {
+      left_out_.add("that a link has no mass: it has 1 mg");
+      mass = {least_mass, {}, {least_inertia, least_inertia, least_inertia, 0., 0., 0.}};
+    }
     if (mass.mass > 0.) {
       const pugi::xml_node inertial = element(link, "inertial");
       write_pose(inertial, Pose{mass.center_of_mass, {}});

@@ -25,22 +25,22 @@ Quaterniond turn_about(char axis, double angle) {
 
 // ---------------------------------------------------------------------------------- attributes
 
-const MjcfElement* MjcfAttributes::find(const char* attribute) const {
+const XmlElement* MjcfAttributes::find(const char* attribute) const {
   if (own_.node.attribute(attribute)) return &own_;
-  const auto found = std::ranges::find_if(defaults_, [&](const MjcfElement& element) {
+  const auto found = std::ranges::find_if(defaults_, [&](const XmlElement& element) {
     return static_cast<bool>(element.node.attribute(attribute));
   });
   return found == defaults_.end() ? nullptr : &*found;
 }
 
 std::string MjcfAttributes::word(const char* attribute) const {
-  const MjcfElement* element = find(attribute);
+  const XmlElement* element = find(attribute);
   return element == nullptr ? "" : element->text(attribute);
 }
 
 std::vector<double> MjcfAttributes::numbers(const char* attribute,
                                             std::vector<double> otherwise) const {
-  const auto lay = [&](const MjcfElement& element) {
+  const auto lay = [&](const XmlElement& element) {
     const std::vector<double> given =
         element.file->numbers(element.node, attribute, otherwise.size());
     std::ranges::copy(given, otherwise.begin());
@@ -65,7 +65,7 @@ bool MjcfAttributes::boolean(const char* attribute, bool otherwise) const {
 }
 
 language::Position MjcfAttributes::place(const char* attribute) const {
-  const MjcfElement* element = find(attribute);
+  const XmlElement* element = find(attribute);
   return element == nullptr ? own_.place() : element->place(attribute);
 }
 
@@ -86,7 +86,7 @@ bool MjcfDocument::open() {
   paths_.insert(std::filesystem::weakly_canonical(file_.path, ignored).string());
   root_ = {xml->open({"mujoco", "mujocoinclude"}, "MJCF"), xml.get()};
   if (!root_.node) return false;
-  for (const MjcfElement& section : children(root_)) {
+  for (const XmlElement& section : children(root_)) {
     if (section.tag() == "default") read_defaults(section, "", true);
   }
   read_compiler();
@@ -97,15 +97,15 @@ bool MjcfDocument::good() const {
   return std::ranges::all_of(open_files_, [](const auto& file) { return file->good(); });
 }
 
-MjcfElement MjcfDocument::open_included(const MjcfElement& include) {
+XmlElement MjcfDocument::open_included(const XmlElement& include) {
   const auto key = std::pair(include.file, include.node.offset_debug());
   if (const auto found = included_.find(key); found != included_.end()) return found->second;
-  MjcfElement& element = included_[key];
+  XmlElement& element = included_[key];
   const std::string name = include.text("file");
   const language::Position at = include.place("file");
   const auto fail = [&](const std::string& message) {
     include.file->fail(at, message);
-    return MjcfElement{};
+    return XmlElement{};
   };
   if (name.empty()) return fail("<include> lacks file=\"...\"");
   std::filesystem::path path = files_.find(name, file_.path);
@@ -125,11 +125,11 @@ MjcfElement MjcfDocument::open_included(const MjcfElement& include) {
   return element;
 }
 
-std::vector<MjcfElement> MjcfDocument::children(const MjcfElement& of) {
-  std::vector<MjcfElement> found;
+std::vector<XmlElement> MjcfDocument::children(const XmlElement& of) {
+  std::vector<XmlElement> found;
   // Innermost last; a file that is included stands in the place of its <include>.
-  std::vector<MjcfElement> waiting;
-  const auto wait_for_children = [&](const MjcfElement& element) {
+  std::vector<XmlElement> waiting;
+  const auto wait_for_children = [&](const XmlElement& element) {
     const std::size_t first = waiting.size();
     for (const pugi::xml_node& node : element.node.children()) {
       if (node.type() == pugi::node_element) waiting.push_back({node, element.file});
@@ -138,29 +138,29 @@ std::vector<MjcfElement> MjcfDocument::children(const MjcfElement& of) {
   };
   wait_for_children(of);
   while (!waiting.empty()) {
-    const MjcfElement element = waiting.back();
+    const XmlElement element = waiting.back();
     waiting.pop_back();
     if (element.tag() != "include") {
       found.push_back(element);
       continue;
     }
-    if (const MjcfElement included = open_included(element); included.node)
+    if (const XmlElement included = open_included(element); included.node)
       wait_for_children(included);
   }
   return found;
 }
 
-std::vector<MjcfElement> MjcfDocument::in_sections(std::string_view section) {
-  std::vector<MjcfElement> all;
-  for (const MjcfElement& element : children(root_)) {
+std::vector<XmlElement> MjcfDocument::in_sections(std::string_view section) {
+  std::vector<XmlElement> all;
+  for (const XmlElement& element : children(root_)) {
     if (element.tag() != section) continue;
-    const std::vector<MjcfElement> inside = children(element);
+    const std::vector<XmlElement> inside = children(element);
     all.insert(all.end(), inside.begin(), inside.end());
   }
   return all;
 }
 
-void MjcfDocument::read_defaults(const MjcfElement& section, const std::string& outer,
+void MjcfDocument::read_defaults(const XmlElement& section, const std::string& outer,
                                  bool outermost) {
   const std::string written = section.text("class");
   if (!outermost && written.empty()) {
@@ -180,7 +180,7 @@ void MjcfDocument::read_defaults(const MjcfElement& section, const std::string& 
   }
   if (is_new) entry->second.outer = outer;
   DefaultClass& of = entry->second;
-  for (const MjcfElement& child : children(section)) {
+  for (const XmlElement& child : children(section)) {
     if (child.tag() == "default") {
       read_defaults(child, name, false);
     } else {
@@ -190,7 +190,7 @@ void MjcfDocument::read_defaults(const MjcfElement& section, const std::string& 
   }
 }
 
-MjcfAttributes MjcfDocument::attributes(const MjcfElement& element, const std::string& childclass) {
+MjcfAttributes MjcfDocument::attributes(const XmlElement& element, const std::string& childclass) {
   check_mjcf_attributes(element);
   std::string name = element.text("class");
   if (name.empty()) name = childclass;
@@ -199,11 +199,11 @@ MjcfAttributes MjcfDocument::attributes(const MjcfElement& element, const std::s
     name = "";
   }
   if (name == "main") name = "";
-  std::vector<MjcfElement> defaults;
+  std::vector<XmlElement> defaults;
   for (std::optional<std::string> at = name; at;) {
     const auto found = classes_.find(*at);
     if (found != classes_.end()) {
-      for (const MjcfElement& of : found->second.elements) {
+      for (const XmlElement& of : found->second.elements) {
         if (of.tag() == element.tag() ||
             (is_mjcf_actuator(of.tag()) && is_mjcf_actuator(element.tag())))
           defaults.push_back(of);
@@ -216,7 +216,7 @@ MjcfAttributes MjcfDocument::attributes(const MjcfElement& element, const std::s
 }
 
 void MjcfDocument::read_compiler() {
-  for (const MjcfElement& element : children(root_)) {
+  for (const XmlElement& element : children(root_)) {
     if (element.tag() != "compiler") continue;
     check_mjcf_attributes(element);
     const MjcfAttributes given(element, {});

@@ -15,29 +15,16 @@
 
 namespace hookpoint::simulation {
 
-/// An element, and the file that it stands in.
-struct MjcfElement {
-  pugi::xml_node node;
-  UrdfXml* file = nullptr;
-
-  std::string_view tag() const { return node.name(); }
-  language::Position place() const { return file->place(node); }
-  language::Position place(std::string_view attribute) const {
-    return file->place(node, attribute);
-  }
-  std::string text(const char* attribute) const { return node.attribute(attribute).value(); }
-};
-
 class MjcfDocument;
 
 /// An element's attributes: its own before those of its class, these before the class's that holds
 /// it.
 class MjcfAttributes {
  public:
-  MjcfAttributes(MjcfElement own, std::vector<MjcfElement> defaults)
+  MjcfAttributes(XmlElement own, std::vector<XmlElement> defaults)
       : own_(own), defaults_(std::move(defaults)) {}
 
-  const MjcfElement& own() const { return own_; }
+  const XmlElement& own() const { return own_; }
   bool has(const char* attribute) const { return find(attribute) != nullptr; }
   /// "" where nothing gives it.
   std::string word(const char* attribute) const;
@@ -53,10 +40,10 @@ class MjcfAttributes {
   bool fail(const char* attribute, const std::string& message) const;
 
  private:
-  const MjcfElement* find(const char* attribute) const;
+  const XmlElement* find(const char* attribute) const;
 
-  MjcfElement own_;
-  std::vector<MjcfElement> defaults_;  ///< innermost class first
+  XmlElement own_;
+  std::vector<XmlElement> defaults_;  ///< innermost class first
 };
 
 /// What <compiler> says of the rest.
@@ -77,13 +64,13 @@ class MjcfDocument {
   /// False after an error.
   bool open();
   bool good() const;
-  const MjcfElement& root() const { return root_; }
+  const XmlElement& root() const { return root_; }
   /// The elements in another, those of included files in their places.
-  std::vector<MjcfElement> children(const MjcfElement& of);
+  std::vector<XmlElement> children(const XmlElement& of);
   /// All elements in the sections of that name.
-  std::vector<MjcfElement> in_sections(std::string_view section);
+  std::vector<XmlElement> in_sections(std::string_view section);
   /// `childclass`: the class that holds the element, "" for the outermost.
-  MjcfAttributes attributes(const MjcfElement& element, const std::string& childclass);
+  MjcfAttributes attributes(const XmlElement& element, const std::string& childclass);
   /// The frame of an element in that which it stands in.
   Pose pose(const MjcfAttributes& element);
   Quaterniond orientation(const MjcfAttributes& element);
@@ -95,10 +82,10 @@ class MjcfDocument {
  private:
   struct DefaultClass {
     std::string outer;  ///< "" for the outermost
-    std::vector<MjcfElement> elements;
+    std::vector<XmlElement> elements;
   };
-  MjcfElement open_included(const MjcfElement& include);
-  void read_defaults(const MjcfElement& section, const std::string& outer, bool outermost);
+  XmlElement open_included(const XmlElement& include);
+  void read_defaults(const XmlElement& section, const std::string& outer, bool outermost);
   void read_compiler();
 
   const language::SourceFile& file_;
@@ -106,10 +93,10 @@ class MjcfDocument {
   language::Report& report_;
   std::vector<std::unique_ptr<UrdfXml>> open_files_;
   std::map<const UrdfXml*, const language::SourceFile*> sources_;
-  std::map<std::pair<const UrdfXml*, std::ptrdiff_t>, MjcfElement> included_;
+  std::map<std::pair<const UrdfXml*, std::ptrdiff_t>, XmlElement> included_;
   std::set<std::string> paths_;
   std::map<std::string, DefaultClass> classes_;
-  MjcfElement root_;
+  XmlElement root_;
   MjcfCompiler compiler_;
 };
 

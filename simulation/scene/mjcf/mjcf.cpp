@@ -15,13 +15,6 @@ using language::ForeignObject;
 constexpr std::array mjcf_arguments{"name",  "base", "shapes",  "meshes", "keyframe",     "contact",
                                     "mimic", "lock", "inertia", "hold",   "rotor_inertia"};
 
-ForeignObject material_object(const std::string& name, const MjcfMaterial& material) {
-  ForeignObject object{"Material", name, material.place, {}, {}};
-  for (const char* field : {"static_friction", "kinetic_friction"})
-    object.fields.push_back(numbers(field, {material.friction}, material.place));
-  return object;
-}
-
 class MjcfInclude : private RobotInclude {
  public:
   MjcfInclude(const ForeignArguments& arguments, language::FileStore& files,
@@ -34,17 +27,11 @@ class MjcfInclude : private RobotInclude {
     if (!scene) return {};
     check_arguments(scene->robots);
     lock_joints(scene->robots);
-    tell_left_out(scene->robots.front());
+    tell_left_out(scene->robots.front().left_out, scene->robots.front().place);
     const std::string name = robot_name(scene->name);
-    std::vector<ForeignObject> objects;
-    for (const MjcfMaterial& material : scene->materials)
-      objects.push_back(material_object(name + "_" + material.name, material));
+    std::vector<ForeignObject> objects =
+        material_objects(scene->materials, name + "_", scene->robots);
     for (UrdfRobot& robot : scene->robots) {
-      for (UrdfLink& link : robot.links) {
-        for (UrdfShape& shape : link.shapes) {
-          if (!shape.material.empty()) shape.material = name + "_" + shape.material;
-        }
-      }
       const bool is_first = &robot == &scene->robots.front();
       for (ForeignObject& object :
            robot_objects(robot, is_first ? name : name + "_" + identifier(robot.name),
@@ -57,9 +44,7 @@ class MjcfInclude : private RobotInclude {
  private:
   MjcfChoices choices() {
     MjcfChoices chosen;
-    const std::string meshes = word_argument("meshes", {"skip", "box", "hull"});
-    if (meshes == "box") chosen.meshes = UrdfMeshes::box;
-    if (meshes == "hull") chosen.meshes = UrdfMeshes::hull;
+    chosen.meshes = meshes_argument();
     chosen.mimic = mimic_argument();
     chosen.inertia = inertia_argument();
     chosen.friction = word_argument("contact", {"friction", "ground"}) != "ground";

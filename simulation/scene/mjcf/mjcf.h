@@ -9,7 +9,7 @@
 
 #include "language/syntax/files.h"
 #include "language/tree/foreign.h"
-#include "simulation/scene/urdf/urdf.h"
+#include "simulation/scene/urdf/robot_include.h"
 
 namespace hookpoint::simulation {
 
@@ -22,18 +22,11 @@ struct MjcfChoices {
   bool friction = true;  ///< geoms have materials of their own friction
 };
 
-/// The surface of geoms: a Material that states its friction.
-struct MjcfMaterial {
-  std::string name;
-  double friction = 0.;
-  language::Position place;
-};
-
 struct MjcfScene {
   std::string name;
   language::Position place;
-  std::vector<UrdfRobot> robots;  ///< each free body's, then what hangs on the world
-  std::vector<MjcfMaterial> materials;
+  std::vector<UrdfRobot> robots;           ///< each free body's, then what hangs on the world
+  std::vector<SurfaceMaterial> materials;  ///< of geoms that state their friction
 };
 
 /// Nothing after an error. Linear in the file.

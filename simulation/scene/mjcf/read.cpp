@@ -27,7 +27,7 @@ using language::Position;
 
 /// An element of a body, in whatever frames it stands there.
 struct Placed {
-  MjcfElement element;
+  XmlElement element;
   Pose X_BF;
   std::string childclass;
 };
@@ -48,14 +48,14 @@ class MjcfReader {
 
  private:
   void leave_out(const std::string& what) { ++left_out_[what]; }
-  void leave_out_unread(const MjcfElement& element) {
+  void leave_out_unread(const XmlElement& element) {
     for (const std::string& name : unread_mjcf_attributes(element))
       leave_out(fmt::format("{} of <{}>", name, element.tag()));
   }
 
   void read_worldbody();
   void read_top_body(const Placed& at);
-  std::vector<Placed> elements_of(const MjcfElement& body, const Pose& X_BF,
+  std::vector<Placed> elements_of(const XmlElement& body, const Pose& X_BF,
                                   const std::string& childclass, std::size_t depth = 0);
   /// `X_LP`: of the carrying body's frame in its link's.
   void read_body(const Placed& at, std::size_t robot, std::size_t parent, const Pose& X_LP,
@@ -73,11 +73,11 @@ class MjcfReader {
   void require_mass();
   /// `joint` equalities: one joint follows another, or is fixed.
   void read_couplings();
-  void read_coupling(const MjcfElement& element);
+  void read_coupling(const XmlElement& element);
   void read_actuators();
-  void read_actuator(const MjcfElement& element);
+  void read_actuator(const XmlElement& element);
   void read_keyframe();
-  void take_key(const MjcfElement& key);
+  void take_key(const XmlElement& key);
   void read_sections();
   void scale_mass();
   /// `name` if nothing else of its kind is called so, otherwise with a number.
@@ -93,7 +93,7 @@ class MjcfReader {
   std::set<std::string> link_names_, joint_names_;
   std::map<std::string, JointAddress> joints_;  ///< by their names in the file
   std::vector<JointAddress> addresses_;         ///< in the order of qpos
-  std::map<std::string, MjcfElement> meshes_;
+  std::map<std::string, XmlElement> meshes_;
 };
 
 std::optional<MjcfScene> MjcfReader::run() {
@@ -121,7 +121,7 @@ std::optional<MjcfScene> MjcfReader::run() {
 }
 
 void MjcfReader::read_sections() {
-  for (const MjcfElement& section : document_.children(document_.root())) {
+  for (const XmlElement& section : document_.children(document_.root())) {
     const std::string_view tag = section.tag();
     const bool is_read = tag == "compiler" || tag == "default" || tag == "worldbody" ||
                          tag == "actuator" || tag == "keyframe" || tag == "asset";
@@ -131,7 +131,7 @@ void MjcfReader::read_sections() {
     const bool is_list = tag == "equality" || tag == "tendon" || tag == "contact" ||
                          tag == "sensor" || tag == "deformable" || tag == "extension";
     if (is_list) {
-      for (const MjcfElement& element : document_.children(section))
+      for (const XmlElement& element : document_.children(section))
         if (tag != "equality" || element.tag() != "joint")
           leave_out(tag == "sensor" ? "<sensor>" : fmt::format("<{}> of <{}>", element.tag(), tag));
     } else if (is_aside) {
@@ -140,7 +140,7 @@ void MjcfReader::read_sections() {
       section.file->fail(section.place(), fmt::format("<mujoco> has no <{}>", tag));
     }
   }
-  for (const MjcfElement& asset : document_.in_sections("asset")) {
+  for (const XmlElement& asset : document_.in_sections("asset")) {
     if (asset.tag() != "mesh") continue;
     check_mjcf_attributes(asset);
     leave_out_unread(asset);
@@ -157,7 +157,7 @@ void MjcfReader::read_worldbody() {
   UrdfLink& link = world.links.emplace_back();
   link.name = "world";
   link.place = scene_.place;
-  for (const MjcfElement& section : document_.children(document_.root())) {
+  for (const XmlElement& section : document_.children(document_.root())) {
     if (section.tag() != "worldbody") continue;
     for (const Placed& at : elements_of(section, {}, "")) {
       if (at.element.tag() == "body") {
@@ -185,7 +185,7 @@ void MjcfReader::read_top_body(const Placed& at) {
   read_body(at, scene_.robots.size() - 1, 0, {}, 0);
 }
 
-std::vector<Placed> MjcfReader::elements_of(const MjcfElement& body, const Pose& X_BF,
+std::vector<Placed> MjcfReader::elements_of(const XmlElement& body, const Pose& X_BF,
                                             const std::string& childclass, std::size_t depth) {
   constexpr std::size_t deepest = 100;
   std::vector<Placed> found;
@@ -193,7 +193,7 @@ std::vector<Placed> MjcfReader::elements_of(const MjcfElement& body, const Pose&
     body.file->fail(body.place(), fmt::format("frames stand in each other {} deep", depth));
     return found;
   }
-  for (const MjcfElement& element : document_.children(body)) {
+  for (const XmlElement& element : document_.children(body)) {
     if (element.tag() != "frame") {
       found.push_back({element, X_BF, childclass});
       continue;
@@ -219,7 +219,7 @@ std::string MjcfReader::unique(std::string name, std::set<std::string>& taken) {
 void MjcfReader::read_body(const Placed& at, std::size_t robot, std::size_t parent,
                            const Pose& X_LP, std::size_t depth) {
   constexpr std::size_t deepest = 500;
-  const MjcfElement& element = at.element;
+  const XmlElement& element = at.element;
   if (report_.full()) return;
   if (depth > deepest) {
     element.file->fail(element.place(), fmt::format("bodies hang on each other {} deep: {} are "
@@ -488,7 +488,7 @@ void MjcfReader::add_mesh_geom(const MjcfAttributes& given, const Pose& X_LG, Ur
     given.fail("mesh", fmt::format("there is no mesh `{}`", name));
     return;
   }
-  const MjcfElement& asset = found->second;
+  const XmlElement& asset = found->second;
   const std::filesystem::path file =
       std::filesystem::path(document_.compiler().mesh_folder) / asset.text("file");
   const std::filesystem::path path = files_.find(file, document_.main_file().path);
@@ -506,7 +506,8 @@ void MjcfReader::add_mesh_geom(const MjcfAttributes& given, const Pose& X_LG, Ur
     return;
   }
   const Vector3d scale = document_.attributes(asset, "").vector("scale", {1., 1., 1.});
-  add_mesh(mesh.vertices, scale, choices_.meshes, X_LG, given.own().place(), link, left_out_);
+  add_mesh(mesh.vertices, scale, choices_.meshes, X_LG, given.own().place(), material_of(given),
+           link, left_out_);
 }
 
 std::string MjcfReader::material_of(const MjcfAttributes& given) {
@@ -516,13 +517,10 @@ std::string MjcfReader::material_of(const MjcfAttributes& given) {
     given.fail("friction", "a coefficient of friction is not negative");
     return "";
   }
-  std::string name = fmt::format("friction_{:g}", friction);
-  std::ranges::replace_if(
-      name, [](char c) { return c == '.' || c == '-' || c == '+'; }, '_');
-  const bool is_new = std::ranges::none_of(
-      scene_.materials, [&](const MjcfMaterial& material) { return material.name == name; });
-  if (is_new) scene_.materials.push_back({name, friction, given.place("friction")});
-  return name;
+  SurfaceMaterial material;
+  material.place = given.place("friction");
+  material.friction = friction;
+  return add_material(std::move(material), scene_.materials);
 }
 
 /// A joint beyond which nothing has a mass cannot be set in motion.
@@ -541,12 +539,12 @@ void MjcfReader::require_mass() {
 }
 
 void MjcfReader::read_couplings() {
-  for (const MjcfElement& element : document_.in_sections("equality"))
+  for (const XmlElement& element : document_.in_sections("equality"))
     if (element.tag() == "joint") read_coupling(element);
 }
 
 // q1 - ref1 = c0 + c1 (q2 - ref2) + ...; joints stand at their references so far.
-void MjcfReader::read_coupling(const MjcfElement& element) {
+void MjcfReader::read_coupling(const XmlElement& element) {
   const MjcfAttributes given(element, {});
   if (choices_.mimic == UrdfMimic::ignore) return leave_out("<joint> of <equality>");
   if (given.word("active") == "false") return leave_out("equality that is not active");
@@ -570,7 +568,7 @@ void MjcfReader::read_coupling(const MjcfElement& element) {
 }
 
 void MjcfReader::read_actuators() {
-  for (const MjcfElement& element : document_.in_sections("actuator")) {
+  for (const XmlElement& element : document_.in_sections("actuator")) {
     const std::string_view tag = element.tag();
     if (tag == "motor" || tag == "position" || tag == "velocity" || tag == "general") {
       read_actuator(element);
@@ -580,7 +578,7 @@ void MjcfReader::read_actuators() {
   }
 }
 
-void MjcfReader::read_actuator(const MjcfElement& element) {
+void MjcfReader::read_actuator(const XmlElement& element) {
   const MjcfAttributes given = document_.attributes(element, "");
   leave_out_unread(element);
   const std::string name = given.word("joint");
@@ -640,7 +638,7 @@ void MjcfReader::read_actuator(const MjcfElement& element) {
 
 void MjcfReader::read_keyframe() {
   std::string known;
-  for (const MjcfElement& key : document_.in_sections("keyframe")) {
+  for (const XmlElement& key : document_.in_sections("keyframe")) {
     check_mjcf_attributes(key);
     const std::string name = key.text("name");
     if (!choices_.keyframe.empty() && name == choices_.keyframe) return take_key(key);
@@ -655,7 +653,7 @@ void MjcfReader::read_keyframe() {
                             known.empty() ? "none" : known));
 }
 
-void MjcfReader::take_key(const MjcfElement& key) {
+void MjcfReader::take_key(const XmlElement& key) {
   std::size_t positions = 0, rates = 0;
   for (const JointAddress& at : addresses_) {
     positions += at.is_free ? 7 : 1;

@@ -87,7 +87,7 @@ bool is_mjcf_actuator(std::string_view tag) {
   return tag == "general" || tag == "motor" || tag == "position" || tag == "velocity";
 }
 
-void check_mjcf_attributes(const MjcfElement& element) {
+void check_mjcf_attributes(const XmlElement& element) {
   const Row* row = row_of(element.tag());
   if (row == nullptr) return;
   std::vector<std::string> known = words_of(row->known);
@@ -105,7 +105,7 @@ void check_mjcf_attributes(const MjcfElement& element) {
   }
 }
 
-std::vector<std::string> unread_mjcf_attributes(const MjcfElement& element) {
+std::vector<std::string> unread_mjcf_attributes(const XmlElement& element) {
   const Row* row = row_of(element.tag());
   if (row == nullptr) return {};
   std::vector<std::string> found;

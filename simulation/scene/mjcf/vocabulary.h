@@ -15,9 +15,9 @@ bool is_mjcf_actuator(std::string_view tag);
 
 /// An error at each attribute that MuJoCo does not know of this element. Elements that nothing here
 /// reads are not looked into.
-void check_mjcf_attributes(const MjcfElement& element);
+void check_mjcf_attributes(const XmlElement& element);
 
 /// Those of its attributes that bear on motion and are not read.
-std::vector<std::string> unread_mjcf_attributes(const MjcfElement& element);
+std::vector<std::string> unread_mjcf_attributes(const XmlElement& element);
 
 }  // namespace hookpoint::simulation

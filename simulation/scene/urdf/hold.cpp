@@ -58,8 +58,8 @@ class UrdfHolding {
     for (const UrdfShape& shape : body.shapes)
       lowest =
           std::min(lowest, (X_BL * Pose{shape.spec.location, shape.spec.orientation}).position.z);
-    for (const Vector3d& point : body.points)
-      lowest = std::min(lowest, (X_BL * Pose{point, {}}).position.z);
+    for (const UrdfPoint& point : body.points)
+      lowest = std::min(lowest, (X_BL * Pose{point.position, {}}).position.z);
     lowest_ = std::min(lowest_, lowest);
     mass_ += body.mass.mass;
     Pose X_JL;  // in the frame of each joint that carries it
@@ -84,8 +84,8 @@ class UrdfHolding {
       const Pose X_JS = X_JL * Pose{shape.spec.location, shape.spec.orientation};
       beyond.reach = std::max(beyond.reach, norm(X_JS.position));
     }
-    for (const Vector3d& point : body.points)
-      beyond.reach = std::max(beyond.reach, norm((X_JL * Pose{point, {}}).position));
+    for (const UrdfPoint& point : body.points)
+      beyond.reach = std::max(beyond.reach, norm((X_JL * Pose{point.position, {}}).position));
   }
 
   UrdfHold hold(const UrdfJoint& joint, const Beyond& beyond) const {

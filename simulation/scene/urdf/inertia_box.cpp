@@ -23,7 +23,6 @@ ShapeSpec inertia_box(const MassSpec& body) {
 void take_inertia_box(UrdfBody& body) {
   body.shapes.clear();
   body.points.clear();
-  body.point_places.clear();
   const auto& [mass, center, I] = body.mass;
   if (!(mass > 0.) || !(I.xx + I.yy + I.zz > 0.)) return;
   body.shapes.push_back({inertia_box(body.mass), body.inertial_place, true, ""});

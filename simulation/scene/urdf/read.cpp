@@ -9,8 +9,6 @@
 #include "language/names.h"
 #include "simulation/scene/urdf/inertia_repair.h"
 #include "simulation/scene/urdf/joint_rules.h"
-#include "simulation/scene/urdf/mesh.h"
-#include "simulation/scene/urdf/mesh_path.h"
 #include "simulation/scene/urdf/mesh_shape.h"
 #include "simulation/scene/urdf/urdf.h"
 #include "simulation/scene/urdf/xml.h"
@@ -36,11 +34,13 @@ class UrdfReader : private UrdfXml {
   void read_link(const pugi::xml_node& node);
   void read_inertial(const pugi::xml_node& node, UrdfLink& link);
   void read_shape(const pugi::xml_node& node, UrdfLink& link);
+  /// What <contact> of a link says of its surface, as Bullet has it, and <gazebo> of the robot.
+  void read_link_contact(const pugi::xml_node& node, UrdfLink& link);
+  void read_gazebo(const pugi::xml_node& node);
+  void give_material(const SurfaceMaterial& material, UrdfLink& link);
   void leave_out(const std::string& what, std::size_t times = 1) { robot_.left_out[what] += times; }
   std::optional<ShapeGeometry> read_geometry(const pugi::xml_node& node);
   void read_mesh_at(const pugi::xml_node& node, const Pose& X_LS, UrdfLink& link);
-  /// Its vertices, each once, as the file has them; null after an error.
-  const MeshPoints* find_mesh(const pugi::xml_node& node);
   void read_joint(const pugi::xml_node& node);
   bool read_type(const pugi::xml_node& node, UrdfJoint& joint);
   bool read_ends(const pugi::xml_node& node, UrdfJoint& joint);
@@ -75,8 +75,9 @@ std::optional<UrdfRobot> UrdfReader::run() {
   for (const pugi::xml_node& node : root.children()) {
     const std::string_view name = node.name();
     if (node.type() == pugi::node_element && name != "link" && name != "joint" &&
-        name != "transmission")
+        name != "transmission" && name != "gazebo")
       leave_out(fmt::format("<{}>", name));
+    if (name == "gazebo") read_gazebo(node);
   }
   if (robot_.links.empty()) fail(robot_.place, "the robot has no <link>");
   for (const pugi::xml_node& node : root.children("joint")) {
@@ -105,7 +106,60 @@ void UrdfReader::read_link(const pugi::xml_node& node) {
   for (const pugi::xml_node& shape : node.children(kind)) read_shape(shape, link);
   for (pugi::xml_node shape = node.child(other); shape; shape = shape.next_sibling(other))
     leave_out(fmt::format("<{}>", other));
+  if (const pugi::xml_node contact = only(node, "contact")) read_link_contact(contact, link);
   robot_.links.push_back(std::move(link));
+}
+
+void UrdfReader::read_link_contact(const pugi::xml_node& node, UrdfLink& link) {
+  SurfaceMaterial material;
+  material.place = place(node);
+  const auto value = [&](const char* name) -> std::optional<double> {
+    const pugi::xml_node element = node.child(name);
+    return element ? std::optional(not_negative(element, "value")) : std::nullopt;
+  };
+  material.friction = value("lateral_friction");
+  if (choices_.contact == StatedContact::file) {
+    material.stiffness = value("stiffness");
+    material.damping = value("damping");
+    material.restitution = value("restitution");
+    material.rolling = value("rolling_friction");
+    material.spinning = value("spinning_friction");
+  }
+  give_material(material, link);
+}
+
+void UrdfReader::read_gazebo(const pugi::xml_node& node) {
+  const auto link = links_.find(node.attribute("reference").value());
+  SurfaceMaterial material;
+  material.place = place(node);
+  // As text, or as an attribute.
+  const auto value = [&](const char* name) -> std::optional<double> {
+    const pugi::xml_node element = node.child(name);
+    if (!element) return std::nullopt;
+    const double read =
+        element.attribute("value") ? number(element, "value", {}) : content(element);
+    if (read < 0.) fail(place(element), fmt::format("{} is not negative", name));
+    return std::max(read, 0.);
+  };
+  material.friction = value("mu1");
+  if (choices_.contact == StatedContact::file) {
+    material.stiffness = value("kp");
+    material.damping = value("kd");
+  }
+  if (link == links_.end() || material.says_nothing()) return leave_out("<gazebo>");
+  give_material(material, robot_.links[link->second]);
+}
+
+void UrdfReader::give_material(const SurfaceMaterial& material, UrdfLink& link) {
+  SurfaceMaterial stated = material;
+  // Of these 0 means that nothing is stated.
+  for (std::optional<double>* constant : {&stated.stiffness, &stated.damping}) {
+    if (*constant == 0.) constant->reset();
+  }
+  if (choices_.contact == StatedContact::ground || stated.says_nothing()) return;
+  const std::string name = add_material(std::move(stated), robot_.materials);
+  for (UrdfShape& shape : link.shapes) shape.material = name;
+  for (UrdfPoint& point : link.points) point.material = name;
 }
 
 void UrdfReader::read_inertial(const pugi::xml_node& node, UrdfLink& link) {
@@ -155,45 +209,14 @@ void UrdfReader::read_shape(const pugi::xml_node& node, UrdfLink& link) {
 
 void UrdfReader::read_mesh_at(const pugi::xml_node& node, const Pose& X_LS, UrdfLink& link) {
   const Vector3d scale = vector(node, "scale", {1., 1., 1.});
-  const MeshPoints* mesh = find_mesh(node);
+  const MeshPoints* mesh =
+      find_mesh(node.attribute("filename").value(), place(node, "filename"), path_, files_, *this);
   if (mesh == nullptr) return;
   if (scale.x * scale.y * scale.z == 0.) {
     fail(place(node, "scale"), "a scale of 0 leaves nothing of a mesh");
     return;
   }
-  add_mesh(mesh->vertices, scale, geometry_.meshes, X_LS, place(node), link, robot_.left_out);
-}
-
-const MeshPoints* UrdfReader::find_mesh(const pugi::xml_node& node) {
-  const std::string filename = node.attribute("filename").value();
-  const Position at = place(node, "filename");
-  const std::vector<std::filesystem::path> places =
-      mesh_places(filename, path_, files_.search_path());
-  if (places.empty()) {
-    fail(at, filename.empty()
-                 ? "this <mesh> has no filename"
-                 : "a mesh is named by a path, or by package://NAME/PATH or file://PATH");
-    return nullptr;
-  }
-  std::error_code ignored;
-  const auto found = std::ranges::find_if(places, [&](const std::filesystem::path& path) {
-    return std::filesystem::is_regular_file(path, ignored);
-  });
-  if (found == places.end()) {
-    std::string tried;
-    for (const std::filesystem::path& path : places)
-      tried += fmt::format("{}{}", tried.empty() ? "" : ", ", path.string());
-    fail(at, fmt::format("there is no mesh `{}`: looked for {} (HOOKPOINT_PATH names further "
-                         "folders; meshes = skip does without)",
-                         filename, tried));
-    return nullptr;
-  }
-  const std::string path = found->lexically_normal().string();
-  const MeshPoints& mesh =
-      files_.keep<MeshPoints>("mesh " + path, [&] { return read_mesh(*found); });
-  if (mesh.problem.empty()) return &mesh;
-  fail(at, fmt::format("the mesh {} cannot be read: {}", path, mesh.problem));
-  return nullptr;
+  add_mesh(mesh->vertices, scale, geometry_.meshes, X_LS, place(node), "", link, robot_.left_out);
 }
 
 std::optional<ShapeGeometry> UrdfReader::read_geometry(const pugi::xml_node& node) {

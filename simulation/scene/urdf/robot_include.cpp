@@ -50,33 +50,14 @@ void add_pose(const Pose& X, const char* position, const char* orientation, cons
 }
 
 ForeignObject shape_object(const UrdfShape& of) {
-  const ShapeSpec& shape = of.spec;
-  const Position& place = of.place;
-  ForeignObject object{"", "", place, {}, {}};
-  if (const auto* box = std::get_if<Box>(&shape.geometry)) {
-    object.type = "Shape.Box";
-    const Vector3d& size = box->dimensions;
-    object.fields = {numbers("dimensions", {size.x, size.y, size.z}, place)};
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
-    object.type = "Shape.Cylinder";
-    object.fields = {numbers("radius", {cylinder->radius}, place),
-                     numbers("length", {cylinder->length}, place)};
-  } else if (const auto* capsule = std::get_if<Capsule>(&shape.geometry)) {
-    object.type = "Shape.Capsule";
-    object.fields = {numbers("radius", {capsule->radius}, place),
-                     numbers("length", {capsule->length}, place)};
-  } else {
-    object.type = "Shape.Sphere";
-    object.fields = {numbers("radius", {std::get<Sphere>(shape.geometry).radius}, place)};
-  }
-  add_pose({shape.location, shape.orientation}, "location", "orientation", place, object);
+  ForeignObject object{"", "", of.place, {}, {}};
+  object.type = "Shape." + add_shape_fields(of, object);
   if (!of.touches) {
     Value no;
     no.kind = ValueKind::boolean;
-    no.position = place;
-    object.fields.push_back({"contact", {no}, place});
+    no.position = of.place;
+    object.fields.push_back({"contact", {no}, of.place});
   }
-  if (!of.material.empty()) object.fields.push_back(word("material", of.material, place));
   return object;
 }
 
@@ -90,12 +71,27 @@ void add_body(const UrdfBody& body, ForeignObject& object) {
     object.fields.push_back(numbers("inertia", {I.xx, I.yy, I.zz, I.xy, I.xz, I.yz}, place));
   }
   for (const UrdfShape& shape : body.shapes) object.children.push_back(shape_object(shape));
-  for (std::size_t i = 0; i < body.points.size(); ++i) {
-    const Vector3d& p = body.points[i];
-    const Position& place = body.point_places[i];
-    object.children.push_back(
-        {"ContactPoint", "", place, {numbers("location", {p.x, p.y, p.z}, place)}, {}});
+  for (const auto& [p, place, material] : body.points) {
+    ForeignObject point{"ContactPoint", "", place, {}, {}};
+    point.fields.push_back(numbers("location", {p.x, p.y, p.z}, place));
+    if (!material.empty()) point.fields.push_back(word("material", material, place));
+    object.children.push_back(std::move(point));
   }
+}
+
+ForeignObject material_object(const SurfaceMaterial& material, const std::string& name) {
+  ForeignObject object{"Material", name, material.place, {}, {}};
+  const auto add = [&](const char* field, const std::optional<double>& value) {
+    if (value) object.fields.push_back(numbers(field, {*value}, material.place));
+  };
+  add("static_friction", material.friction);
+  add("kinetic_friction", material.friction);
+  add("normal_stiffness", material.stiffness);
+  add("normal_damping", material.damping);
+  add("restitution", material.restitution);
+  add("rolling_resistance", material.rolling);
+  add("spinning_resistance", material.spinning);
+  return object;
 }
 
 /// The controller `servo` of a joint, in the link that it drives.
@@ -129,6 +125,37 @@ ForeignObject servo_object(const UrdfJoint& joint, const std::string& link,
 }
 
 }  // namespace
+
+std::string add_shape_fields(const UrdfShape& of, ForeignObject& object) {
+  const Position& place = of.place;
+  std::string kind;
+  const auto add = [&](const char* name, const std::vector<double>& values) {
+    object.fields.push_back(numbers(name, values, place));
+  };
+  if (const auto* box = std::get_if<Box>(&of.spec.geometry)) {
+    kind = "Box";
+    add("dimensions", {box->dimensions.x, box->dimensions.y, box->dimensions.z});
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&of.spec.geometry)) {
+    kind = "Cylinder";
+    add("radius", {cylinder->radius});
+    add("length", {cylinder->length});
+  } else if (const auto* capsule = std::get_if<Capsule>(&of.spec.geometry)) {
+    kind = "Capsule";
+    add("radius", {capsule->radius});
+    add("length", {capsule->length});
+  } else if (const auto* hull = std::get_if<Hull>(&of.spec.geometry)) {
+    kind = "Hull";
+    std::vector<double> coordinates;
+    for (const Vector3d& p : hull->vertices) coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+    add("points", coordinates);
+  } else {
+    kind = "Sphere";
+    add("radius", {std::get<Sphere>(of.spec.geometry).radius});
+  }
+  add_pose({of.spec.location, of.spec.orientation}, "location", "orientation", place, object);
+  if (!of.material.empty()) object.fields.push_back(word("material", of.material, place));
+  return kind;
+}
 
 ForeignField numbers(const char* name, const std::vector<double>& of, const Position& place) {
   ForeignField field{name, {}, place};
@@ -381,6 +408,36 @@ UrdfMimic RobotInclude::mimic_argument() {
   return word == "fixed" ? UrdfMimic::fixed : UrdfMimic::couple;
 }
 
+std::vector<ForeignObject> RobotInclude::material_objects(
+    const std::vector<SurfaceMaterial>& materials, const std::string& prefix,
+    std::span<UrdfRobot> robots) {
+  std::vector<ForeignObject> objects;
+  for (const SurfaceMaterial& material : materials)
+    objects.push_back(material_object(material, prefix + material.name));
+  const auto rename = [&](std::string& name) {
+    if (!name.empty()) name.insert(0, prefix);
+  };
+  for (UrdfRobot& robot : robots) {
+    for (UrdfLink& link : robot.links) {
+      for (UrdfShape& shape : link.shapes) rename(shape.material);
+      for (UrdfPoint& point : link.points) rename(point.material);
+    }
+  }
+  return objects;
+}
+
+StatedContact RobotInclude::contact_argument() {
+  const std::string word = word_argument("contact", {"friction", "file", "ground"});
+  if (word == "file") return StatedContact::file;
+  return word == "ground" ? StatedContact::ground : StatedContact::friction;
+}
+
+UrdfMeshes RobotInclude::meshes_argument() {
+  const std::string word = word_argument("meshes", {"skip", "box", "hull"});
+  if (word == "hull") return UrdfMeshes::hull;
+  return word == "box" ? UrdfMeshes::box : UrdfMeshes::skip;
+}
+
 UrdfInertia RobotInclude::inertia_argument() {
   const bool repair = word_argument("inertia", {"file", "repair"}) == "repair";
   return repair ? UrdfInertia::repair : UrdfInertia::file;
@@ -410,12 +467,13 @@ void RobotInclude::tell_repaired(const UrdfRobot& robot) {
                  fmt::format("inertias repaired: {}", fmt::join(robot.repaired, ", ")));
 }
 
-void RobotInclude::tell_left_out(const UrdfRobot& robot) {
-  if (robot.left_out.empty()) return;
+void RobotInclude::tell_left_out(const std::map<std::string, std::size_t>& left_out,
+                                 const Position& place) {
+  if (left_out.empty()) return;
   std::string list;
-  for (const auto& [what, times] : robot.left_out)
+  for (const auto& [what, times] : left_out)
     list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", what, times);
-  report_.remark(robot.place, "left out: " + list);
+  report_.remark(place, "left out: " + list);
 }
 
 void RobotInclude::require_mass(const UrdfLink& link, const UrdfBody& body) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "simulation/scene/urdf/urdf.h"
 
 namespace hookpoint::simulation {
+
+/// Adds the fields that a Shape and an Obstacle of this geometry have in common: its sizes, where it
+/// stands and its material. Result: its kind, "Box".
+std::string add_shape_fields(const UrdfShape& of, language::ForeignObject& object);
 
 /// `text` as a name of the language: letters, digits and _, no digit first.
 std::string identifier(std::string text);
@@ -38,16 +43,25 @@ class RobotInclude {
   /// The word that an argument gives; "" if it is not given or after an error.
   std::string word_argument(const std::string& name, const std::vector<std::string>& choices);
   bool is_given(const std::string& name) const;
+  /// The Materials, each name with `prefix` before it, as the shapes and points of the robots call them
+  /// from then on.
+  std::vector<language::ForeignObject> material_objects(
+      const std::vector<SurfaceMaterial>& materials, const std::string& prefix,
+      std::span<UrdfRobot> robots);
   /// What becomes of joints that follow others, and of inertias that no mass has.
   UrdfMimic mimic_argument();
   UrdfInertia inertia_argument();
+  /// What of surfaces and meshes counts.
+  StatedContact contact_argument();
+  UrdfMeshes meshes_argument();
   /// An error for each argument that means nothing to one of the robots.
   void check_arguments(std::span<const UrdfRobot> robots,
                        const std::vector<std::string>& further = {});
   /// Fixes the joints that the argument `lock` names where they start.
   void lock_joints(std::span<UrdfRobot> robots);
-  /// One line about all that is in the file and not in the robot.
-  void tell_left_out(const UrdfRobot& robot);
+  /// One line about all that is in the file and not in the robots.
+  void tell_left_out(const std::map<std::string, std::size_t>& left_out,
+                     const language::Position& place);
 
   const language::ForeignArguments& arguments_;
   const std::span<const char* const> own_arguments_;

@@ -9,11 +9,6 @@
 namespace hookpoint::simulation {
 namespace {
 
-Pose inverse(const Pose& X) {
-  const Quaterniond back = conjugate(X.orientation);
-  return {-rotate(back, X.position), back};
-}
-
 class UrdfAssembly {
  public:
   UrdfAssembly(const UrdfRobot& robot, language::Report& report)
@@ -177,10 +172,10 @@ class UrdfAssembly {
       shape.spec.orientation = X_FS.orientation;
       body.shapes.push_back(std::move(shape));
     }
-    for (const Vector3d& point : link.points)
-      body.points.push_back(X_FL.position + rotate(X_FL.orientation, point));
-    body.point_places.insert(body.point_places.end(), link.point_places.begin(),
-                             link.point_places.end());
+    for (UrdfPoint point : link.points) {
+      point.position = (X_FL * Pose{point.position, {}}).position;
+      body.points.push_back(std::move(point));
+    }
   }
 
   /// Links in a loop of their own hang on nothing that the root carries.

@@ -14,8 +14,8 @@ using language::ForeignArguments;
 using language::ForeignObject;
 
 /// Arguments with a meaning of their own.
-constexpr std::array urdf_arguments{"name", "base",    "shapes", "meshes",       "mimic",
-                                    "lock", "inertia", "hold",   "rotor_inertia"};
+constexpr std::array urdf_arguments{"name",  "base", "shapes",  "meshes", "contact",
+                                    "mimic", "lock", "inertia", "hold",   "rotor_inertia"};
 class UrdfInclude : private RobotInclude {
  public:
   UrdfInclude(const ForeignArguments& arguments, language::FileStore& files,
@@ -26,25 +26,22 @@ class UrdfInclude : private RobotInclude {
     const ExpandedUrdf expanded = expand_xacro(file, arguments_, own_arguments_, files_, report_);
     if (expanded.source == nullptr) return {};
     const std::string shapes = word_argument("shapes", {"collision", "visual", "inertia"});
-    const UrdfChoices choices{geometry_argument(shapes), mimic_argument(), inertia_argument()};
+    const UrdfShapes of = shapes == "visual" ? UrdfShapes::visual : UrdfShapes::collision;
+    const UrdfChoices choices{
+        {of, meshes_argument()}, mimic_argument(), inertia_argument(), contact_argument()};
     auto robot = read_urdf(*expanded.source, choices, files_, report_);
     if (!robot) return {};
     // A file that a run is repeated from is the one that was written.
     if (expanded.source != &file) robot->place = {&file, 0, 1};
     check_arguments({&*robot, 1}, expanded.arguments);
     lock_joints({&*robot, 1});
-    tell_left_out(*robot);
-    return robot_objects(*robot, robot_name(robot->name), shapes == "inertia");
-  }
-
- private:
-  UrdfGeometry geometry_argument(const std::string& shapes) {
-    UrdfGeometry geometry;
-    if (shapes == "visual") geometry.shapes = UrdfShapes::visual;
-    const std::string meshes = word_argument("meshes", {"skip", "box", "hull"});
-    if (meshes == "box") geometry.meshes = UrdfMeshes::box;
-    if (meshes == "hull") geometry.meshes = UrdfMeshes::hull;
-    return geometry;
+    tell_left_out(robot->left_out, robot->place);
+    const std::string name = robot_name(robot->name);
+    std::vector<ForeignObject> objects =
+        material_objects(robot->materials, name + "_", {&*robot, 1});
+    for (ForeignObject& object : robot_objects(*robot, name, shapes == "inertia"))
+      objects.push_back(std::move(object));
+    return objects;
   }
 };
 

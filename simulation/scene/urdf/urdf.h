@@ -13,6 +13,7 @@
 #include "language/tree/foreign.h"
 #include "simulation/experiment/experiment.h"
 #include "simulation/experiment/kinematics.h"
+#include "simulation/scene/urdf/surface_material.h"
 
 namespace hookpoint::simulation {
 
@@ -24,6 +25,13 @@ struct UrdfShape {
   std::string material;  ///< the name of an object; "": none of its own
 };
 
+/// A point that touches the ground.
+struct UrdfPoint {
+  Vector3d position;
+  language::Position place;
+  std::string material;  ///< the name of an object; "": none of its own
+};
+
 struct UrdfLink {
   std::string name;
   language::Position place;
@@ -31,8 +39,7 @@ struct UrdfLink {
   language::Position inertial_place;
   MassSpec mass;  ///< link's frame
   std::vector<UrdfShape> shapes;
-  std::vector<Vector3d> points;  ///< that touch the ground, link's frame
-  std::vector<language::Position> point_places;
+  std::vector<UrdfPoint> points;  ///< link's frame
 
   bool touches() const { return !shapes.empty() || !points.empty(); }
 };
@@ -87,6 +94,7 @@ struct UrdfRobot {
   std::vector<UrdfJoint> joints;
   std::optional<UrdfStart> start;
   std::map<std::string, std::size_t> left_out;  ///< what was not read, and how often
+  std::vector<SurfaceMaterial> materials;       ///< that shapes and points name
   std::vector<std::string> repaired;            ///< inertias, link by link, and by how much
 };
 
@@ -107,6 +115,7 @@ struct UrdfChoices {
   UrdfGeometry geometry;
   UrdfMimic mimic = UrdfMimic::couple;
   UrdfInertia inertia = UrdfInertia::file;
+  StatedContact contact = StatedContact::friction;
 };
 /// Of a hull with more vertices so many are taken, spread over it (hull.h).
 inline constexpr std::size_t most_hull_points = 64;
@@ -125,8 +134,7 @@ struct UrdfBody {
   bool has_inertial = false;          ///< some link of it does
   language::Position inertial_place;  ///< of the first that does
   std::vector<UrdfShape> shapes;      ///< body's frame
-  std::vector<Vector3d> points;       ///< body's frame
-  std::vector<language::Position> point_places;
+  std::vector<UrdfPoint> points;      ///< body's frame
 };
 
 /// Bodies in series. Where one carries several joints its chain ends, and each of the joints starts

@@ -85,9 +85,16 @@ std::optional<double> UrdfXml::bound(const pugi::xml_node& node, const char* att
 
 std::vector<double> UrdfXml::numbers(const pugi::xml_node& node, const char* attribute,
                                      std::size_t most) {
-  std::string_view text = node.attribute(attribute).value();
+  return parse_all(node.attribute(attribute).value(), place(node, attribute), attribute, most);
+}
+
+std::vector<double> UrdfXml::content_numbers(const pugi::xml_node& node, std::size_t most) {
+  return parse_all(node.text().get(), place(node), fmt::format("<{}>", node.name()), most);
+}
+
+std::vector<double> UrdfXml::parse_all(std::string_view text, const Position& at,
+                                       std::string_view what, std::size_t most) {
   std::vector<double> numbers;
-  const Position at = place(node, attribute);
   for (std::size_t start = text.find_first_not_of(blanks); start != std::string_view::npos;
        start = text.find_first_not_of(blanks)) {
     text.remove_prefix(start);
@@ -95,7 +102,7 @@ std::vector<double> UrdfXml::numbers(const pugi::xml_node& node, const char* att
     const std::optional<double> value = parse(word, at);
     if (!value) return {};
     if (numbers.size() == most) {
-      fail(at, fmt::format("{} takes {} number{}", attribute, most, most == 1 ? "" : "s at most"));
+      fail(at, fmt::format("{} takes {} number{}", what, most, most == 1 ? "" : "s at most"));
       return {};
     }
     numbers.push_back(*value);

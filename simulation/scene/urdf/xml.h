@@ -1,4 +1,4 @@
-// What the elements and attributes of a robot's file, URDF or MJCF, say, every mistake at its place.
+// What the elements and attributes of a robot's file, URDF, MJCF or SDF, say, every mistake at its place.
 #pragma once
 
 #include <initializer_list>
@@ -31,6 +31,8 @@ class UrdfXml {
   double not_negative(const pugi::xml_node& node, const char* attribute);
   /// The number that stands in an element; 0 after an error.
   double content(const pugi::xml_node& node);
+  /// The numbers that stand in an element, none after an error; more than `most` are an error.
+  std::vector<double> content_numbers(const pugi::xml_node& node, std::size_t most);
   /// A number above 0 that bounds something; nothing where it is not given, or bounds nothing: not
   /// above 0, infinite, or beyond all numbers.
   std::optional<double> bound(const pugi::xml_node& node, const char* attribute);
@@ -61,11 +63,26 @@ class UrdfXml {
 
  private:
   std::optional<double> parse(std::string_view text, const language::Position& at);
+  std::vector<double> parse_all(std::string_view text, const language::Position& at,
+                                std::string_view what, std::size_t most);
 
   const language::SourceFile& file_;
   language::Report& report_;
   pugi::xml_document document_;
   std::size_t errors_ = 0;
+};
+
+/// An element, and the file that it stands in.
+struct XmlElement {
+  pugi::xml_node node;
+  UrdfXml* file = nullptr;
+
+  std::string_view tag() const { return node.name(); }
+  language::Position place() const { return file->place(node); }
+  language::Position place(std::string_view attribute) const {
+    return file->place(node, attribute);
+  }
+  std::string text(const char* attribute) const { return node.attribute(attribute).value(); }
 };
 
 }  // namespace hookpoint::simulation

@@ -1,0 +1,31 @@
+// The surface that a robot's file states for a shape: a Material.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "language/source.h"
+
+namespace hookpoint::simulation {
+
+/// The surface of shapes as a file states it: a Material.
+struct SurfaceMaterial {
+  std::string name;
+  language::Position place;
+  std::optional<double> friction;            ///< static and kinetic
+  std::optional<double> stiffness, damping;  ///< along the normal [N/m, N s/m]
+  std::optional<double> restitution;
+  std::optional<double> rolling, spinning;  ///< resistances [m]
+
+  bool says_nothing() const {
+    return !friction && !stiffness && !damping && !restitution && !rolling && !spinning;
+  }
+};
+/// What of a surface counts: nothing, its friction, or all that the file states.
+enum class StatedContact { ground, friction, file };
+
+/// The name of `material` among `known`, which it joins if it is new: the name says its values.
+std::string add_material(SurfaceMaterial material, std::vector<SurfaceMaterial>& known);
+
+}  // namespace hookpoint::simulation
