@@ -26,7 +26,7 @@ struct PeerContact {
 /// Of a run of `experiment` by that engine.
 PeerContact peer_contact(const EngineEntry& engine, const simulation::Experiment& experiment);
 
-/// The closed form of each metric that has one, for the run described by `context` (docs/studies.md
+/// The closed form of each metric that has one, for the run described by `context` (docs/metrics.md
 /// lists them). But for `fell`, and the depths of a robot whose joints gravity does not load, they
 /// hold for one rigid body on a plane that cannot roll and starts at rest, or on the level at a
 /// speed. `peer`: of the run's engine, unless it is ours.
@@ -46,7 +46,7 @@ Prediction direction_error(const RunContext& context, const PeerContact& peer);
 /// The angle of the driving force at which a rigid block under Coulomb's friction, that the scene's
 /// own signals pull, reaches `onset_speed` after `settle` [rad]. Of a pull that grows slowly that
 /// is atan(mu), mu_s or the one coefficient of the engine; less for a law or an engine that creeps
-/// as fast as that within the cone (docs/studies.md, The threshold of slip).
+/// as fast as that within the cone (docs/metrics.md, The threshold of slip).
 Prediction slip_onset(const RunContext& context, const PeerContact& peer);
 /// The same less atan(mu_s) [rad].
 Prediction threshold_error(const RunContext& context, const PeerContact& peer);

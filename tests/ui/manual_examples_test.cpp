@@ -3,6 +3,7 @@
 // ctest: long, released
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -49,11 +50,26 @@ TEST_P(ManualExamples, EveryCommandOfThePageWorks) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ManualExamples,
-                         ::testing::Values("coming_from.md", "choosing_a_law.md", "faq.md"),
+/// Pages with blocks of `sh`; the tutorial has a test of its own (tutorial_test.cpp).
+std::vector<std::string> pages_with_commands() {
+  std::vector<std::string> pages;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(testing::source_folder() + "/docs")) {
+    const std::string name = entry.path().filename().string();
+    if (entry.path().extension() != ".md" || name == "tutorial.md") continue;
+    const auto blocks = testing::blocks_of(testing::read_file(entry.path()));
+    if (std::ranges::count(blocks, "sh", &PageBlock::language) > 0) pages.push_back(name);
+  }
+  std::ranges::sort(pages);
+  return pages;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ManualExamples, ::testing::ValuesIn(pages_with_commands()),
                          [](const auto& page) {
                            return page.param.substr(0, page.param.find('.'));
                          });
+
+TEST(PagesWithCommands, AreMost) { EXPECT_GE(pages_with_commands().size(), 38u); }
 
 /// The two of the pendulum.
 std::vector<double> joint_accelerations(const std::string& json) {
