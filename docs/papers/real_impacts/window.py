@@ -133,8 +133,8 @@ def window_picture():
     write_view(number, published_constants())
     picture = FIGURES / "real_impacts_window.png"
     build = pathlib.Path(program()).resolve().parent
-    status = subprocess.run([ROOT / "scripts/gallery", picture.stem], env={**os.environ, "HOOKPOINT_BUILD": build}, check=False).returncode
+    status = subprocess.run([ROOT / "docs/make/gallery", picture.stem], env={**os.environ, "HOOKPOINT_BUILD": build}, check=False).returncode
     if status == 3:
         print(f"real_impacts: {picture.relative_to(ROOT)} stays as it is: Node, Chromium or npm's registry is missing", file=sys.stderr)
     elif status != 0:
-        sys.exit(f"real_impacts: scripts/gallery {picture.stem} gave {status}")
+        sys.exit(f"real_impacts: docs/make/gallery {picture.stem} gave {status}")
