@@ -151,6 +151,46 @@ TEST_P(RandomRobot, AcceleratesAsItsOwnLinksTellOneByOne) {
 // 1e-6: a rounded file; 1e-9 and 0: common normals are far away, or anywhere.
 INSTANTIATE_TEST_SUITE_P(Tilts, RandomRobot, ::testing::Values(2., 0.5, 1e-6, 1e-9, 0.));
 
+// Bullet's <contact> of a link and Gazebo's extension of the robot.
+TEST(Urdf, SurfacesAreMaterials) {
+  const std::string ball = "<collision><geometry><sphere radius=\"0.1\"/></geometry></collision>";
+  const std::string text =
+      "<robot name=\"r\"><link name=\"a\"><inertial><mass value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" "
+      "izz=\"1\"/></inertial>" +
+      ball +
+      "<contact><lateral_friction value=\"0.7\"/><rolling_friction value=\"0.01\"/><stiffness "
+      "value=\"30000\"/><damping value=\"1000\"/></contact></link><link name=\"b\"><inertial><mass "
+      "value=\"1\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial>" +
+      ball +
+      "</link><joint name=\"j\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/></joint>"
+      "<gazebo reference=\"b\"><mu1>0.6</mu1><kp value=\"5000\"/><kd>0</kd></gazebo></robot>";
+  const auto materials = [&](const std::string& arguments) {
+    const Loaded loaded = load_urdf(text, arguments);
+    EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+    std::vector<std::optional<contact::MaterialConstants<double>>> found;
+    const simulation::RobotSpec& robot = loaded.experiment->robots.at(0);
+    for (const simulation::BodySpec* body : {&robot.base, &robot.chains.at(0).links.at(0).body}) {
+      const int index = body->shapes.at(0).material;
+      found.emplace_back();
+      if (index != simulation::no_material)
+        found.back() = loaded.experiment->materials.at(static_cast<std::size_t>(index)).constants;
+    }
+    return found;
+  };
+  const auto friction = materials("");
+  EXPECT_EQ(friction[0]->static_friction, 0.7);
+  EXPECT_EQ(friction[0]->rolling_resistance, 0.);
+  EXPECT_EQ(friction[1]->kinetic_friction, 0.6);
+  const auto all = materials(", contact = file");
+  EXPECT_EQ(all[0]->normal_stiffness, 30000.);
+  EXPECT_EQ(all[0]->normal_damping, 1000.);
+  EXPECT_EQ(all[0]->rolling_resistance, 0.01);
+  EXPECT_EQ(all[1]->normal_stiffness, 5000.);
+  EXPECT_EQ(all[1]->normal_damping, contact::MaterialConstants<double>{}.normal_damping);
+  const auto none = materials(", contact = ground");
+  EXPECT_FALSE(none[0] || none[1]);
+}
+
 TEST(Urdf, LimitsDampingFrictionAndEffortComeAlong) {
   const Loaded loaded = load_urdf(
       robot(link_l + joint("knee", "revolute",
