@@ -68,8 +68,7 @@ int format(const std::vector<std::filesystem::path>& files, bool check_only) {
     }
     const std::string refusal = text::refusal(*text, file, text::Use::experiment);
     const std::string_view ending = text::usual_ending(*text, file);
-    if (!refusal.empty() || ending == ".urdf" || ending == ".mjcf" ||
-        ending == ".sdf") {
+    if (!refusal.empty() || ending == ".urdf" || ending == ".mjcf" || ending == ".sdf") {
       application::print_error(
           file.string() + ": " +
           (refusal.empty() ? "`fmt` rewrites files of the language (.hook), not URDF, MJCF or SDF"

@@ -154,14 +154,21 @@ void warn_of_bodies_below(const language::Object& base, const contact::Terrain& 
                           const RobotSpec& robot, Loading& loading) {
   const std::vector<Pose> poses = body_poses(robot);
   const std::vector<const BodySpec*> bodies = bodies_of(robot);
-  double deepest = 0.;
+  // What touches penetrates the ground by its static depth: a point of mass lies as deep.
+  constexpr double apart = 1e-6;  // [m]
+  double deepest = apart;
+  for (const RobotPoint& point : points_in_base(robot)) {
+    const Vector3d p_WP = robot.location + rotate(robot.orientation, point.p_BP);
+    deepest = std::max(deepest, ground.query(p_WP).depth + apart);
+  }
+  const double touching = deepest;
   std::size_t body = 0, below = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     if (!(bodies[i]->mass.mass > 0.)) continue;
     const Vector3d p_BC =
         poses[i].position + rotate(poses[i].orientation, bodies[i]->mass.center_of_mass);
     const double depth = ground.query(robot.location + rotate(robot.orientation, p_BC)).depth;
-    if (depth > 0.) ++below;
+    if (depth > touching) ++below;
     if (depth <= deepest) continue;
     deepest = depth;
     body = i;

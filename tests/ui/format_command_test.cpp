@@ -11,7 +11,7 @@ using testing::CommandResult;
 using testing::count;
 using testing::Workplace;
 
-const std::string sdf = "<sdf version=\"1.6\">\n  <world/>\n</sdf>\n";
+const std::string skel = "<skel version=\"1.0\">\n  <world/>\n</skel>\n";
 const std::string ball =
     "World w { deltat = 1 ms; duration = 1 ms; Terrain.Flat g; Robot b { Base.mobile { rest_on = "
     "g; Shape.Sphere { radius = 0.1; mass = 1; } } } }\n";
@@ -25,19 +25,19 @@ void expect_named(const CommandResult& result, const std::string& format) {
 
 TEST(FormatCommand, FilesOfOtherProgramsAreNamed) {
   const Workplace work;
-  work.file("go2.sdf", sdf);
-  for (const char* command : {"run go2.sdf", "check go2.sdf", "print go2.sdf", "fmt go2.sdf",
-                              "view go2.sdf --no-open", "dynamics go2.sdf", "ports go2.sdf",
-                              "study go2.sdf", "tune go2.sdf", "advise go2.sdf", "go2.sdf"})
-    expect_named(work.hookpoint(command), "SDF");
+  work.file("go2.skel", skel);
+  for (const char* command : {"run go2.skel", "check go2.skel", "print go2.skel", "fmt go2.skel",
+                              "view go2.skel --no-open", "dynamics go2.skel", "ports go2.skel",
+                              "study go2.skel", "tune go2.skel", "advise go2.skel", "go2.skel"})
+    expect_named(work.hookpoint(command), "a model of DART");
 }
 
 TEST(FormatCommand, AnIncludeNamesItWithoutSpeakingOfArguments) {
   const Workplace work;
-  work.file("go2.sdf", sdf);
-  work.file("scene.hook", "World w { Include \"go2.sdf\" (name = go2, rest_on = g); }\n");
+  work.file("go2.skel", skel);
+  work.file("scene.hook", "World w { Include \"go2.skel\" (name = go2, rest_on = g); }\n");
   const CommandResult result = work.hookpoint("check scene.hook");
-  expect_named(result, "SDF");
+  expect_named(result, "a model of DART");
   EXPECT_NE(result.err.find("included here"), std::string::npos) << result.err;
 }
 

@@ -172,6 +172,11 @@ TEST(Warnings, TellOfBodiesThatRestOnPutsBelowTheGround) {
       << hanging.diagnostics;
   EXPECT_NE(hanging.diagnostics.find("by 0.5 m"), std::string::npos) << hanging.diagnostics;
   EXPECT_EQ(load_text(arm(-0.5)).diagnostics, "");
+  // A point of mass that starts in balance lies below the ground by its static depth.
+  EXPECT_EQ(load_text("World w { Terrain.Flat f; Robot b { Base.mobile { rest_on = f; mass = 1; "
+                      "inertia = 1,1,1,0,0,0; ContactPoint { location = 0, 0, 0; } } } }")
+                .diagnostics,
+            "");
 }
 
 TEST(Warnings, TellWhereASettledStartIsNone) {
