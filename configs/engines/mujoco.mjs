@@ -1,5 +1,5 @@
 // Today's MuJoCo: the experiment as an MJCF text, set up as hookpoint's linked MuJoCo is (docs/reference_engines.md).
-import {Refusal, contact_of, conjugate, cross, gap, minus, module_of, one_ground, plus, point_radius, rotated, scaled, serve, turn_to, dot} from "./protocol.mjs";
+import {Refusal, contact_of, conjugate, cross, gap, minus, module_of, one_ground, plus, rotated, scaled, serve, turn_to, dot} from "./protocol.mjs";
 
 const mujoco = await (await module_of("@mujoco/mujoco")).default();
 
@@ -37,6 +37,7 @@ const hello = {
 
 const words = values => values.join(" ");
 const least_impedance = 1e-4;  // mjMINIMP
+const point_radius = 1e-6;  // m, of the ball that a point without a size is: friction acts so far below the point
 
 /** f = -k (r + dt (v + dt a)) - c (v + dt a) as a constraint row: R = 1/(dt (c + dt k)), B = 1/dt, K d = k R. */
 function row(material, dt, inverse_weight) {
