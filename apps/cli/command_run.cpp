@@ -88,11 +88,8 @@ int run(const RunArguments& arguments) {
     return wrong_input;
   }
   application::Application application(arguments.consent);
-  std::filesystem::path file = application.locate(arguments.file);
-  if (const auto world = application::world_of_robot(application, file, arguments.consent)) {
-    application.give(world->file, world->text);
-    file = world->file;
-  }
+  const std::filesystem::path file = application::file_with_world(
+      application, application.locate(arguments.file), arguments.consent);
   const auto root = application.evaluate_set(file, settings_with_duration(arguments));
   if (!root) return wrong_input;
   auto experiment = application.load(*root);

@@ -22,6 +22,7 @@ int translate(TranslateArguments arguments) {
       request.file = std::move(request.given.front());
       request.given.clear();
     }
+    request.consent = arguments.consent;
     application::Application application(arguments.consent);
     const auto answers = application::translated(application, request);
     if (!answers) return wrong_input;

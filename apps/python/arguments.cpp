@@ -18,7 +18,7 @@ std::string type_name(const py::handle& value) {
 /// of lists in lists, which may hold themselves.
 std::string text_of(const py::handle& value, const std::string& trail, int depth = 0) {
   constexpr int deepest = 4;
-  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
+  if (py::isinstance<py::str>(value)) return utf8(value);
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
   if (py::isinstance<py::int_>(value)) return py::str(value).cast<std::string>();
   // A scalar of numpy, or an array that holds one number.
@@ -44,6 +44,13 @@ std::string text_of(const py::handle& value, const std::string& trail, int depth
 
 }  // namespace
 
+std::string utf8(const py::handle& text) {
+  Py_ssize_t size = 0;
+  const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+  if (bytes == nullptr) throw py::error_already_set();
+  return {bytes, static_cast<std::size_t>(size)};
+}
+
 std::vector<std::string> settings_of(const py::handle& set) {
   if (!py::isinstance<py::dict>(set))
     throw py::type_error(
@@ -53,14 +60,14 @@ std::vector<std::string> settings_of(const py::handle& set) {
     if (!py::isinstance<py::str>(key))
       throw py::type_error(
           fmt::format("the keys of `set` are trails, which are text, not {}", type_name(key)));
-    const auto trail = key.cast<std::string>();
+    const std::string trail = utf8(key);
     settings.push_back(trail + "=" + text_of(value, trail));
   }
   return settings;
 }
 
 std::vector<std::string> names_of(const py::handle& names, const char* argument) {
-  if (py::isinstance<py::str>(names)) return {names.cast<std::string>()};
+  if (py::isinstance<py::str>(names)) return {utf8(names)};
   const auto refuse = [&](const py::handle& given) {
     throw py::type_error(fmt::format("`{}` takes a name or a list of names, which are text, not {}",
                                      argument, type_name(given)));
@@ -69,7 +76,7 @@ std::vector<std::string> names_of(const py::handle& names, const char* argument)
   std::vector<std::string> all;
   for (const py::handle& name : names) {
     if (!py::isinstance<py::str>(name)) refuse(name);
-    all.push_back(name.cast<std::string>());
+    all.push_back(utf8(name));
   }
   return all;
 }

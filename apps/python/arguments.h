@@ -17,6 +17,9 @@ using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::a
 /// Threads that one call may use, as of the command's --jobs.
 inline constexpr std::int64_t most_threads = 9999;
 
+/// A str of Python. UnicodeEncodeError, a ValueError, for halves of a surrogate pair.
+std::string utf8(const pybind11::handle& text);
+
 /// `set`, a dict {trail: value}, as settings of the command line: "trail=value". Throws TypeError
 /// for what is no dict, a trail that is no text, or a value that is neither text nor number.
 std::vector<std::string> settings_of(const pybind11::handle& set);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/python/errors.h"
+#include "apps/shared/robot_file.h"
 #include "simulation/analysis/step_warning.h"
 #include "simulation/scene/load.h"
 
@@ -52,6 +53,12 @@ std::string warning_of_step(const simulation::Experiment& experiment) {
 
 LoadedFile::LoadedFile(const Source& source) : source_(source), application_(source.consent) {
   if (source_.text) application_->give(source_.file, *source_.text);
+  if (const auto world =
+          application::world_of_robot(*application_, source_.file, source_.consent)) {
+    source_.file = world->file;
+    source_.text = world->text;
+    application_->give(source_.file, *source_.text);
+  }
   if (!application_->load_plugins(source_.file)) application_.fail();
   if (source_.engine)
     engine_settings_ =

@@ -17,6 +17,7 @@
 #include "apps/python/python_tasks.h"
 #include "apps/python/python_world.h"
 #include "apps/shared/engines_json.h"
+#include "apps/shared/exported.h"
 #include "apps/shared/translated.h"
 #include "text/number.h"
 
@@ -163,11 +164,11 @@ std::unique_ptr<PythonBatch> batch_of(const py::object& file, std::int64_t world
   const Variants variants = changed(Variants(static_cast<std::size_t>(worlds)), set, seeds);
   Source source{
       {}, {}, variants.front().settings, std::move(engine), {allow_plugins, allow_engines}};
-  const bool is_text = py::isinstance<py::str>(file) &&
-                       file.cast<std::string>().find_first_of("{\n") != std::string::npos;
+  const bool is_text =
+      py::isinstance<py::str>(file) && utf8(file).find_first_of("{\n") != std::string::npos;
   if (is_text) {
     source.file = "<text>";
-    source.text = file.cast<std::string>();
+    source.text = utf8(file);
   } else {
     source.file = path_of(file, "file");
   }
@@ -260,7 +261,7 @@ void add_batch(py::module_& module) {
 
 /// "solref=0.02,1" of a number, several or a word.
 std::string setting_of(const std::string& name, const py::handle& value) {
-  if (py::isinstance<py::str>(value)) return name + "=" + value.cast<std::string>();
+  if (py::isinstance<py::str>(value)) return name + "=" + utf8(value);
   std::string text = name + "=";
   if (!py::isinstance<py::sequence>(value)) return text + text::shortest(value.cast<double>());
   for (const double number : value.cast<std::vector<double>>())
@@ -288,12 +289,34 @@ py::object translate(const std::filesystem::path& file, const py::object& to,
   request.to = names_of(to, "to");
   request.from = source;
   for (const auto& [name, value] : parameters)
-    request.given.push_back(setting_of(name.cast<std::string>(), value));
+    request.given.push_back(setting_of(utf8(name), value));
   try {
-    QuietApplication application({.plugins = allow_plugins});
+    request.consent = {.plugins = allow_plugins};
+    QuietApplication application(request.consent);
     const auto answers = application::translated(*application, request);
     if (!answers) application.fail();
     return py::module_::import("json").attr("loads")(translation::json_of(*answers));
+  } catch (const translation::ParameterError& error) {
+    throw_error(error.what());
+  }
+}
+
+/// The text, and what the format does not hold.
+py::tuple export_model(const std::filesystem::path& file, const std::string& to,
+                       const py::object& set, const std::optional<std::string>& robot,
+                       std::optional<double> creep, bool allow_plugins) {
+  application::ExportRequest request;
+  request.file = file;
+  request.settings.trails = settings_of(set);
+  request.format = to;
+  request.robot = robot;
+  if (creep) request.creep = text::shortest(*creep) + " m/s";
+  request.consent = {.plugins = allow_plugins};
+  try {
+    QuietApplication application(request.consent);
+    const auto model = application::exported(*application, request);
+    if (!model) application.fail();
+    return py::make_tuple(model->text, model->left_out);
   } catch (const translation::ParameterError& error) {
     throw_error(error.what());
   }
@@ -377,6 +400,13 @@ void add_functions(py::module_& module) {
       "a dict, or of a World with several contacts a list of dicts. `file`: a .hook file, or the "
       "name of a material. `to`: engines, by default all. `source`: an engine whose `parameters`, "
       "a dict, are read instead of a file. `load` [N], `mass` [kg], `deltat` [s], `creep` [m/s].");
+  module.def(
+      "export", &export_model, py::arg("file"), py::arg("to"), py::kw_only(),
+      py::arg("set") = py::dict(), py::arg("robot") = py::none(), py::arg("creep") = py::none(),
+      py::arg("allow_plugins") = false,
+      "A World or a robot as a model of another program, \"mjcf\", \"urdf\" or \"sdf\": its text, "
+      "and a list of what that format does not hold. `robot`: this one alone. `creep` [m/s]: of the "
+      "translated contact on 10 deg.");
   module.def(
       "engines",
       [] {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "apps/python/arguments.h"
 #include "apps/python/errors.h"
 
 namespace hookpoint::python {
@@ -19,7 +20,7 @@ StateValues::StateValues(const py::object& state, std::size_t worlds, const Find
   for (const auto& [key, value] : py::reinterpret_borrow<py::dict>(state)) {
     if (!py::isinstance<py::str>(key))
       throw py::type_error("the keys of `state` are trails, which are text");
-    Written written{key.cast<std::string>(), {}, {}, 1, false};
+    Written written{utf8(key), {}, {}, 1, false};
     written.numbers = find(written.trail);
     const std::size_t size = written.numbers.size();
     const Numbers array = numbers_of(value, fmt::format("`{}` in `state`", written.trail));

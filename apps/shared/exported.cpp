@@ -70,11 +70,8 @@ translation::ModelContact contact_of(const simulation::Experiment& experiment,
 
 std::optional<translation::Model> exported(Application& application, const ExportRequest& request) {
   const ModelFormat& format = format_of(request.format);
-  std::filesystem::path file = application.locate(request.file);
-  if (const auto world = world_of_robot(application, file, request.consent)) {
-    application.give(world->file, world->text);
-    file = world->file;
-  }
+  const std::filesystem::path file =
+      file_with_world(application, application.locate(request.file), request.consent);
   const auto root = application.evaluate_set(file, request.settings);
   if (!root) return std::nullopt;
   const auto experiment = application.load(*root);

@@ -39,8 +39,13 @@ void LiveLoader::read_anew() {
           print_diagnostics(found);
       });
   found_ = application_->find(file_);
-  if (!robot_world_) robot_world_ = world_of_robot(*application_, found_, consent_);
-  if (!robot_world_) return;
+  if (!robot_world_) {
+    robot_world_ = world_of_robot(*application_, found_, consent_);
+    if (!robot_world_) return;
+    language::Diagnostics said;
+    said.note({}, robot_world_->note);
+    application_->tell(said);
+  }
   application_->give(robot_world_->file, robot_world_->text);
   found_ = robot_world_->file;
 }

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <utility>
@@ -129,9 +128,21 @@ std::optional<RobotWorld> world_of_robot(Application& application,
       file.parent_path() / (file.stem().string() + "_on_a_plane.hook");
   const auto best = Trials(file, place, stands, consent).best();
   if (!best) return std::nullopt;
-  std::cerr << "hookpoint: note: " << text::printable(file.filename().string())
-            << " has no World: it is put into one with " << text::printable(best->include) << '\n';
-  return RobotWorld{place, world_with(best->include, stands ? best->weight / parts_of_weight : 0.)};
+  return RobotWorld{
+      place, world_with(best->include, stands ? best->weight / parts_of_weight : 0.),
+      fmt::format("{} has no World: it is put into one with {}",
+                  text::printable(file.filename().string()), text::printable(best->include))};
+}
+
+std::filesystem::path file_with_world(Application& application, const std::filesystem::path& file,
+                                      Consent consent) {
+  const auto world = world_of_robot(application, file, consent);
+  if (!world) return file;
+  language::Diagnostics said;
+  said.note({}, world->note);
+  application.tell(said);
+  application.give(world->file, world->text);
+  return world->file;
 }
 
 }  // namespace hookpoint::application

@@ -13,13 +13,19 @@ namespace hookpoint::application {
 struct RobotWorld {
   std::filesystem::path file;
   std::string text;
+  std::string
+      note;  ///< that there is no World in the robot's file, and with which Include it got one
 };
 
 /// The world in which the robots of `file` stand on a plane, as an Include reads them: in the keyframe `home`
-/// if there is one, joints held, meshes by their hulls where those are found; a note on stderr has that
-/// Include. A robot on a fixed base has no ground. None for a file with a World, and for one that is wrong,
+/// if there is one, joints held, meshes by their hulls where those are found. A robot on a fixed base has no ground. None for a file with a World, and for one that is wrong,
 /// which its evaluation reports. `application`: for files that it has read. Cost: a few evaluations of the file.
 std::optional<RobotWorld> world_of_robot(Application& application,
                                          const std::filesystem::path& file, Consent consent);
+
+/// The file to evaluate: `file`, or the world of its robots, which `application` has from then on and of
+/// which it reports the note.
+std::filesystem::path file_with_world(Application& application, const std::filesystem::path& file,
+                                      Consent consent);
 
 }  // namespace hookpoint::application

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/shared/robot_file.h"
 #include "simulation/analysis/carried_load.h"
 #include "simulation/analysis/inverse_weight.h"
 #include "simulation/experiment/ground.h"
@@ -163,6 +164,7 @@ std::optional<std::vector<Answer>> translated(Application& application,
   if (!std::filesystem::exists(file, ignored))
     throw ParameterError(fmt::format("`{}` is neither a file nor a material of configs/materials",
                                      text::printable(request.file)));
+  file = file_with_world(application, file, request.consent);
   const auto root = application.evaluate(file, {});
   if (!root) return std::nullopt;
   if (!root->children_of("World").empty()) {

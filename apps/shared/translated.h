@@ -13,7 +13,7 @@ namespace hookpoint::application {
 
 struct TranslateRequest {
   std::string
-      file;  ///< a .hook file with a World or Materials, or a name of materials/; "" with `from`
+      file;  ///< a .hook file with a World or Materials, a robot's file, or a name of materials/; "" with `from`
   Settings settings;
   std::optional<std::string> material;                               ///< of several, this one
   std::optional<std::string> load, mass, step, radius, area, creep;  ///< with their units
@@ -21,6 +21,7 @@ struct TranslateRequest {
   std::vector<std::string> to;     ///< engines; none: all
   std::string from;                ///< engine whose parameters are read
   std::vector<std::string> given;  ///< "key=value"
+  Consent consent;
 };
 
 /// One answer a material under a robot of the experiment. Throws translation::ParameterError where its law or

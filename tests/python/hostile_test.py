@@ -251,6 +251,9 @@ class Types(unittest.TestCase):
             with self.subTest(wrong), self.assertRaises(TypeError) as caught:
                 hookpoint.loads(FALLING, set=wrong)
             self.assertNotRegex(str(caught.exception), "C\\+\\+|PYBIND")
+        for wrong in ({"w.seed": "\ud800"}, {"\ud800": 1}):
+            with self.subTest(ascii(wrong)), self.assertRaises(ValueError):
+                hookpoint.loads(FALLING, set=wrong)
         for wrong in (5, None, [5], [None], b"ball", [["ball"]]):
             with self.subTest(wrong), self.assertRaisesRegex(TypeError, "`record` takes a name"):
                 hookpoint.loads(FALLING).run(record=wrong)

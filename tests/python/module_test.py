@@ -901,6 +901,26 @@ class Module(unittest.TestCase):
             with self.assertRaises(hookpoint.Error):
                 hookpoint.translate(**wrong)
 
+    def test_a_robots_file_is_put_into_a_world(self):
+        with tempfile.TemporaryDirectory() as folder:
+            text, left_out = hookpoint.export(CONFIGS / "robots" / "quadruped.urdf", "mjcf")
+            said = subprocess.run([PROGRAM, "export", CONFIGS / "robots" / "quadruped.urdf", "--to", "mjcf"],
+                                  capture_output=True, check=True, text=True)
+            self.assertEqual(text, said.stdout)
+            self.assertIn("; ".join(left_out), said.stderr)
+            file = pathlib.Path(folder) / "robot.xml"
+            file.write_text(text)
+            world = hookpoint.load(file)
+            self.assertIn("Terrain.Flat", world.text)
+            world.run(0.5)
+            held = copy.deepcopy(world)
+            self.assertEqual(held.text, world.text)
+            answers = hookpoint.translate(file, to="drake")
+            answers = answers if isinstance(answers, list) else [answers]
+            self.assertEqual(answers[0]["targets"][0]["engine"], "drake")
+            with self.assertRaisesRegex(hookpoint.Error, "mjcf"):
+                hookpoint.export(file, "usd")
+
     def test_lists_what_it_has(self):
         listed = hookpoint.engines()
         self.assertIn("dts", [engine["name"] for engine in listed["engines"]])
