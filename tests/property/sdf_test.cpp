@@ -229,6 +229,71 @@ TEST(Sdf, ContactIsTheFilesWhereItIsRequested) {
   EXPECT_FALSE(material("contact = ground"));
 }
 
+// A limit on one side alone, with a start beyond it.
+TEST(Sdf, ALimitMayBeOnOneSide) {
+  for (const auto& [limit, expected] :
+       {std::pair{"<lower>0.6</lower>", 0.6}, std::pair{"<upper>-0.6</upper>", -0.6},
+        std::pair{"<lower>-1</lower>", 0.}}) {
+    const Loaded loaded = load_sdf(
+        {{"robot.sdf",
+          model(link("a") + link("b") +
+                joint("j", "a", "b", "<axis><limit>" + std::string(limit) + "</limit></axis>"))}});
+    ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+    EXPECT_EQ(loaded.experiment->robots.at(0).chains.at(0).links.at(0).angle, expected) << limit;
+  }
+}
+
+// Words of truth are of any case, frictions that print alike are two, and a sensor's shape touches nothing.
+TEST(Sdf, IsReadAsGazeboReadsIt) {
+  const auto ball = [](const std::string& surface) {
+    return "<collision name=\"c" + std::to_string(surface.size()) +
+           "\"><geometry><sphere><radius>0.1</radius></sphere></geometry><surface>" + surface +
+           "</surface></collision>";
+  };
+  const auto mu = [](const std::string& value) {
+    return "<friction><ode><mu>" + value + "</mu></ode></friction>";
+  };
+  const Loaded loaded = load_sdf(
+      {{"robot.sdf",
+        sdf("<world name=\"w\"><model name=\"wall\"><static>True</static>" +
+            link("l", "<pose degrees=\"TRUE\">0 0 0 0 0 90</pose>", 1., box_collision) +
+            "</model><model name=\"m\">" +
+            link(
+                "a", "", 1.,
+                ball(mu("1000000")) + ball(mu("0.000001")) + ball(mu("0.60000010")) +
+                    ball(mu("0.600000200")) +
+                    ball(
+                        "<contact><collide_without_contact>true</collide_without_contact></contact>")) +
+            "</model></world>")}});
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  ASSERT_EQ(loaded.experiment->obstacles.size(), 1u);
+  expect_near(rotate(loaded.experiment->obstacles[0].orientation, {1., 0., 0.}), {0., 1., 0.});
+  const simulation::BodySpec& base = loaded.experiment->robots.at(0).base;
+  ASSERT_EQ(base.shapes.size(), 4u);
+  EXPECT_EQ(base.shapes_without_contact.size(), 1u);
+  const std::vector<double> expected{1e6, 1e-6, 0.6000001, 0.6000002};
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(loaded.experiment->materials.at(static_cast<std::size_t>(base.shapes[i].material))
+                  .constants.static_friction,
+              expected[i]);
+}
+
+// The same file twice, and another with the same surface.
+TEST(Sdf, SeveralIncludesDoNotClash) {
+  const testing::Workplace place;
+  const std::string yard =
+      sdf("<world name=\"w\"><model name=\"wall\"><static>1</static>" +
+          link("l", "", 1., box_collision) + "</model><model name=\"m\"><pose>0 0 1 0 0 0</pose>" +
+          link("a", "", 1., box_collision) + "</model></world>");
+  place.file("yard.sdf", yard);
+  const Loaded loaded = load_file(place.file(
+      "scene.hook",
+      "World w { Include \"yard.sdf\" (name = left); Include \"yard.sdf\" (name = right); }"));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_EQ(loaded.experiment->robots.size(), 2u);
+  EXPECT_EQ(loaded.experiment->obstacles.size(), 2u);
+}
+
 std::string static_model(const std::string& name, const std::string& pose,
                          const std::string& geometry) {
   return "<model name=\"" + name + "\"><static>true</static><pose>" + pose +
@@ -267,6 +332,83 @@ TEST(Sdf, AWorldHasGroundObstaclesAndRobots) {
   const auto& hip = experiment.robots[1].chains.at(0);
   expect_near(hip.hip_distance, {0., 1., 3.});
   EXPECT_TRUE(testing::has(loaded.diagnostics, "<gravity> of <world>")) << loaded.diagnostics;
+}
+
+// What stands fixed stands where the file has it, too.
+TEST(Sdf, AFixedBaseStandsAtItsPose) {
+  const Loaded loaded =
+      load_sdf({{"robot.sdf", model("<pose>1 2 3 0 0 0.5</pose>" + link("a") + link("b") +
+                                    joint("j", "a", "b", "<axis><xyz>0 1 0</xyz></axis>"))}},
+               "base = fixed");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::RobotSpec& robot = loaded.experiment->robots.at(0);
+  EXPECT_FALSE(robot.mobile);
+  expect_near(robot.location, {1., 2., 3.});
+  expect_near(rotate(robot.orientation, {1., 0., 0.}), {std::cos(0.5), std::sin(0.5), 0.});
+}
+
+// The first file that is listed is not the model of this one's package, nor the oldest; a light is none.
+TEST(Sdf, IncludesAreFoundAsGazeboFindsThem) {
+  const std::string ground = model(
+      "<static>true</static>" + std::string("<link name=\"l\"><collision name=\"c\"><geometry>") +
+      plane + "</geometry></collision></link>");
+  const Loaded loaded = load_sdf(
+      {{"robot.sdf",
+        sdf("<world name=\"w\"><include><uri>model://sun</uri></include><include><uri>model://floor"
+            "</uri></include><model name=\"b\">" +
+            link("l") + "</model></world>")},
+       {"package.xml", "<package/>"},
+       {"model.config", "<model><sdf version=\"1.6\">other.sdf</sdf></model>"},
+       {"other.sdf", model(link("wrong"))},
+       {"sun/model.config", "<model><sdf version=\"1.6\">model.sdf</sdf></model>"},
+       {"sun/model.sdf", sdf("<light name=\"sun\" type=\"directional\"/>")},
+       {"floor/model.config",
+        "<model><sdf version=\"1.6\">new.sdf</sdf><sdf version=\"1.4\">old.sdf</sdf></model>"},
+       {"floor/new.sdf", ground},
+       {"floor/old.sdf", model(link("wrong"))}});
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_TRUE(loaded.experiment->terrain);
+  EXPECT_EQ(loaded.experiment->robots.size(), 1u);
+  EXPECT_TRUE(testing::has(loaded.diagnostics, "included light or actor (1)"))
+      << loaded.diagnostics;
+}
+
+// A mimic in a nested model names a joint there; before 1.7 a joint may be called like its link.
+TEST(Sdf, NamesAreThoseOfTheScope) {
+  const std::string inner =
+      "<model name=\"hand\">" + link("palm") + link("one") + link("two") +
+      joint("j1", "palm", "one", "<axis><xyz>0 0 1</xyz></axis>") +
+      joint("j2", "one", "two",
+            "<axis><xyz>0 0 1</xyz><mimic joint=\"j1\"><multiplier>3</multiplier></mimic></axis>") +
+      "</model>";
+  const Loaded nested = load_sdf(
+      {{"robot.sdf", model(link("a") + inner + joint("j", "a", "hand::palm", "", "fixed"))}});
+  ASSERT_TRUE(nested.experiment) << nested.diagnostics;
+  ASSERT_EQ(nested.experiment->couplings.size(), 1u);
+  EXPECT_EQ(nested.experiment->couplings[0].ratio, 3.);
+  const std::string old =
+      link("a") + link("b", "<pose>0 0 1 0 0 0</pose>") +
+      joint("b", "a", "b", "<pose>0 0 0.5 0 0 0</pose><axis><xyz>0 1 0</xyz></axis>");
+  const Loaded same = load_sdf({{"robot.sdf", model(old, "1.6")}});
+  ASSERT_TRUE(same.experiment) << same.diagnostics;
+  expect_near(poses_of(same.experiment->robots.at(0)).at("b").position, {0., 0., 1.5});
+}
+
+TEST(Sdf, WhatIsEmptyOrHoldsACommentIsReadAsWithout) {
+  const Loaded loaded = load_sdf(
+      {{"robot.sdf",
+        model(
+            "<link name=\"a\"><pose/><inertial><mass>1.5<!-- kg --></mass><inertia><ixx></ixx>"
+            "</inertia></inertial></link><link name=\"b\"><pose>0 <!-- x --> 0 2 0 0 0</pose></link>" +
+            joint(
+                "j", "a", "b",
+                "<axis><xyz/><limit><lower/><upper></upper></limit><dynamics><damping/></dynamics></axis>"))}});
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::RobotSpec& robot = loaded.experiment->robots.at(0);
+  EXPECT_EQ(robot.base.mass.mass, 1.5);
+  EXPECT_EQ(robot.base.mass.inertia.xx, 1.);
+  EXPECT_FALSE(robot.chains.at(0).links.at(0).lower_limit);
+  expect_near(poses_of(robot).at("b").position, {0., 0., 2.});
 }
 
 TEST(Sdf, ATiltedPlaneIsASlope) {

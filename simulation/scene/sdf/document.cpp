@@ -17,18 +17,31 @@ namespace fs = std::filesystem;
 /// Includes and models in models.
 constexpr std::size_t most_models = 10000;
 
-std::string without_blanks(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
+constexpr int oldest = 1002, newest = 1012;
+/// 1007 of "1.7"; 0 of what is no version that is read.
+int version_in(const std::string& text) {
+  int major = 0, minor = 0;
+  const char* const end = text.data() + text.size();
+  const auto [dot, wrong] = std::from_chars(text.data(), end, major);
+  if (wrong == std::errc() && dot != end && *dot == '.') std::from_chars(dot + 1, end, minor);
+  const int version = 1000 * major + minor;
+  return version < oldest || version > newest ? 0 : version;
 }
 
-/// "a::b::c" as "a" and "b::c".
-std::pair<std::string_view, std::string_view> split_name(std::string_view name) {
+/// "a::b::c" as "a" and "b::c", unless something is called so altogether.
+std::pair<std::string_view, std::string_view> split_name(const SdfModel& scope,
+                                                         std::string_view name) {
   const std::size_t colons = name.find("::");
-  if (colons == std::string_view::npos) return {name, ""};
+  if (colons == std::string_view::npos || scope.frames.contains(std::string(name)))
+    return {name, ""};
   return {name.substr(0, colons), name.substr(colons + 2)};
+}
+
+/// Whether a text is `word`, in letters of any size.
+bool is_word(std::string_view text, std::string_view word) {
+  return std::ranges::equal(text, word, [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+  });
 }
 
 }  // namespace
@@ -42,12 +55,21 @@ XmlElement SdfDocument::child(const XmlElement& parent, const char* name) {
 }
 
 std::string SdfDocument::text_of(const XmlElement& parent, const char* name) {
-  return without_blanks(parent.node.child(name).text().get());
+  return UrdfXml::text_in(parent.node.child(name));
 }
 
 bool SdfDocument::flag(const XmlElement& parent, const char* name, bool otherwise) {
   const std::string text = text_of(parent, name);
-  return text == "true" || text == "1" || (text.empty() && otherwise);
+  if (text.empty()) return otherwise;
+  const bool yes = is_word(text, "true") || text == "1";
+  if (!yes && !is_word(text, "false") && text != "0")
+    parent.file->fail(child(parent, name).place(), fmt::format("<{}> is true or false", name));
+  return yes;
+}
+
+bool SdfDocument::flag_attribute(const XmlElement& of, const char* name) {
+  const std::string text = of.text(name);
+  return is_word(text, "true") || text == "1";
 }
 
 bool SdfDocument::good() const {
@@ -79,17 +101,12 @@ bool SdfDocument::open() {
 }
 
 int SdfDocument::version_of(const XmlElement& root) {
-  const std::string text = root.text("version");
-  int major = 0, minor = 0;
-  const char* const end = text.data() + text.size();
-  const auto [dot, wrong] = std::from_chars(text.data(), end, major);
-  if (wrong == std::errc() && dot != end && *dot == '.') std::from_chars(dot + 1, end, minor);
-  constexpr int oldest = 2, newest = 12;
-  if (major != 1 || minor < oldest || minor > newest)
-    root.file->fail(
-        root.place("version"),
-        fmt::format("SDFormat 1.{} to 1.{} is read, not version \"{}\"", oldest, newest, text));
-  return 1000 * major + minor;
+  const int version = version_in(root.text("version"));
+  if (version == 0)
+    root.file->fail(root.place("version"),
+                    fmt::format("SDFormat 1.{} to 1.{} is read, not version \"{}\"", oldest - 1000,
+                                newest - 1000, root.text("version")));
+  return version;
 }
 
 void SdfDocument::read_contents(SdfModel& model, std::size_t depth) {
@@ -107,7 +124,9 @@ void SdfDocument::read_contents(SdfModel& model, std::size_t depth) {
     } else if (tag == "include") {
       add_included(model, element, depth);
     } else if (tag == "link" || tag == "joint" || tag == "frame") {
-      // A file may hold a model alone, which stands in the world that holds nothing else.
+      if (&model == &world_ && tag == "joint")
+        element.file->fail(element.place(),
+                           "a joint of the world is not read: write it in a model");
       if (&model == &world_ && tag != "frame") continue;
       const std::string name = element.file->name_of(node);
       if (tag == "link") model.links.push_back(name);
@@ -118,7 +137,15 @@ void SdfDocument::read_contents(SdfModel& model, std::size_t depth) {
 
 void SdfDocument::add_frame(SdfModel& model, const std::string& name, SdfFrame frame) {
   const XmlElement element = frame.element;
+  if (name == "world" || name.starts_with("__")) {
+    element.file->fail(element.place(), fmt::format("the name `{}` is SDFormat's own", name));
+    return;
+  }
+  const bool is_joint = element.tag() == "joint";
   if (name.empty() || model.frames.emplace(name, std::move(frame)).second) return;
+  // Before 1.7 nothing could refer to a joint's frame, and a joint was often called like its link.
+  constexpr int names_are_unique = 1007;
+  if (model.version < names_are_unique && is_joint && model.joints.insert(name).second) return;
   element.file->fail(element.place("name"), fmt::format("a second `{}` in this model", name));
   const XmlElement& first = model.frames.at(name).element;
   element.file->note(first.place(), "the first is here");
@@ -133,6 +160,7 @@ void SdfDocument::add_model(SdfModel& outer, const XmlElement& element, const Xm
   std::string name = text_of(placed_by, "name");
   if (placed_by.tag() != "include" || name.empty()) name = element.file->name_of(element.node);
   auto model = std::make_unique<SdfModel>();
+  model->own_name = name;
   model->name = outer.name.empty() ? name : outer.name + "::" + name;
   model->element = element;
   model->placed_by = child(placed_by, "pose").node ? placed_by : element;
@@ -152,42 +180,44 @@ void SdfDocument::add_model(SdfModel& outer, const XmlElement& element, const Xm
 
 std::filesystem::path SdfDocument::find_model(const std::string& uri, const XmlElement& at) {
   const auto find = [&](const std::string& name) {
-    const std::vector<fs::path> places = mesh_places(name, path_of(at), files_.search_path());
-    std::error_code ignored;
-    const auto found = std::ranges::find_if(
-        places, [&](const fs::path& path) { return fs::is_regular_file(path, ignored); });
-    return found == places.end() ? fs::path() : found->lexically_normal();
+    return first_file(model_places(name, path_of(at), files_.search_path()));
   };
   const std::string folder = uri.ends_with('/') ? uri.substr(0, uri.size() - 1) : uri;
   if (const fs::path manifest = find(folder + "/model.config"); !manifest.empty()) {
-    // It lists a file for each version of the format, the newest last.
+    // It lists a file for each version of the format: the newest one that is read.
     pugi::xml_document config;
     config.load_file(manifest.c_str());
     std::string name;
-    for (const pugi::xml_node& sdf : config.child("model").children("sdf"))
-      name = without_blanks(sdf.text().get());
-    const fs::path file = manifest.parent_path() / name;
-    std::error_code ignored;
-    if (!name.empty() && fs::is_regular_file(file, ignored)) return file;
+    int version = 0;
+    for (const pugi::xml_node& sdf : config.child("model").children("sdf")) {
+      const std::string written = sdf.attribute("version").value();
+      const int listed = written.empty() ? oldest : version_in(written);
+      if (listed <= version) continue;
+      version = listed;
+      name = UrdfXml::text_in(sdf);
+    }
+    const fs::path file = name.empty() ? fs::path() : first_file({manifest.parent_path() / name});
+    if (!file.empty()) return file;
   }
   const fs::path in_folder = find(folder + "/model.sdf");
   return in_folder.empty() ? find(uri) : in_folder;
 }
 
-XmlElement SdfDocument::open_file(const fs::path& path, const XmlElement& from, int& version) {
+const SdfDocument::Opened& SdfDocument::open_file(const fs::path& path) {
+  const auto [found, is_new] = opened_.try_emplace(path.string());
+  Opened& opened = found->second;
+  if (!is_new) return opened;
   const language::SourceFile& source = files_.load(path).source;
   auto& xml = open_files_.emplace_back(std::make_unique<UrdfXml>(source, report_));
   paths_[xml.get()] = path;
-  report_.enter_include(source, from.place());
   const XmlElement root{xml->open({"sdf", "gazebo"}, "SDF"), xml.get()};
-  XmlElement model;
-  if (root.node) {
-    version = version_of(root);
-    model = child(root, "model");
-    if (!model.node) xml->fail(root.place(), "a file that is included holds a <model>");
-  }
-  report_.leave_include();
-  return model;
+  if (!root.node) return opened;
+  opened.version = version_of(root);
+  opened.model = child(root, "model");
+  opened.is_light = !opened.model.node && (child(root, "light").node || child(root, "actor").node);
+  if (!opened.model.node && !opened.is_light)
+    xml->fail(root.place(), "a file that is included holds a <model>");
+  return opened;
 }
 
 void SdfDocument::add_included(SdfModel& outer, const XmlElement& include, std::size_t depth) {
@@ -197,8 +227,10 @@ void SdfDocument::add_included(SdfModel& outer, const XmlElement& include, std::
     include.file->fail(uri.node ? uri.place() : include.place(), message);
   };
   if (name.empty()) return fail("<include> lacks <uri>");
-  if (include.text("merge") == "true" || include.text("merge") == "1")
+  if (flag_attribute(include, "merge"))
     return fail("<include merge=\"true\"> is not read: write the model's links in this one");
+  if (child(include, "experimental:params").node)
+    return fail("<experimental:params> is not read: change the model in a file of its own");
   if (name.starts_with("http://") || name.starts_with("https://"))
     return fail(fmt::format("`{}` lies on a server: fetch it, and name its folder here",
                             name.substr(0, 100)));
@@ -212,11 +244,12 @@ void SdfDocument::add_included(SdfModel& outer, const XmlElement& include, std::
   const std::string canonical = fs::weakly_canonical(path, ignored).string();
   if (std::ranges::count(including_, canonical) > 0)
     return fail(fmt::format("`{}` includes itself", name));
-  if (++included_ > most_models) return fail(fmt::format("more than {} models", most_models));
   including_.push_back(canonical);
-  int version = 0;
-  if (const XmlElement model = open_file(path, include, version); model.node)
-    add_model(outer, model, include, version, depth);
+  report_.enter_include(files_.load(path).source, include.place());
+  const Opened& opened = open_file(path);
+  if (opened.model.node) add_model(outer, opened.model, include, opened.version, depth);
+  if (opened.is_light) ++lights_;
+  report_.leave_include();
   including_.pop_back();
 }
 
@@ -241,8 +274,7 @@ Pose SdfDocument::written_pose(const XmlElement& pose) {
     return {};
   }
   constexpr double degree = 0.017453292519943295;
-  const std::string degrees = pose.text("degrees");
-  const double unit = degrees == "true" || degrees == "1" ? degree : 1.;
+  const double unit = flag_attribute(pose, "degrees") ? degree : 1.;
   return {position, from_roll_pitch_yaw(unit * x[3], unit * x[4], unit * x[5])};
 }
 
@@ -284,8 +316,9 @@ SdfFrame* SdfDocument::find_frame(SdfModel& scope, std::string_view name, const 
 
 Pose SdfDocument::pose_of(SdfModel& scope, std::string_view name, const XmlElement& from,
                           std::size_t depth) {
-  if (name.empty() || name == "__model__" || name == "__root__" || name == "world") return {};
-  const auto [first, rest] = split_name(name);
+  if (name.empty() || name == "__model__") return {};
+  if (&scope == &world_ && (name == "__root__" || name == "world")) return {};
+  const auto [first, rest] = split_name(scope, name);
   SdfFrame* const frame = find_frame(scope, first, from);
   if (frame == nullptr) return {};
   const Pose X_SF = frame_pose(scope, std::string(first), *frame, depth + 1);
@@ -311,7 +344,7 @@ Pose SdfDocument::frame_pose(SdfModel& scope, const std::string& name, SdfFrame&
   Pose X_SF;
   if (frame.model != nullptr) {
     SdfModel& model = *frame.model;
-    // A pose of the <include> is relative to frames here, the model's own to those of its file.
+    // Whether the <include> or the model gives it, the pose is relative to frames here.
     X_SF = pose_of_element(scope, model.placed_by, "", depth);
     if (!model.placement_frame.empty())
       X_SF = X_SF * inverse(pose_of(model, model.placement_frame, element, depth));
@@ -345,7 +378,7 @@ SdfDocument::LinkName SdfDocument::link_of(SdfModel& scope, std::string_view nam
     from.file->fail(from.place(), "this model has no link");
     return {};
   }
-  const auto [first, rest] = split_name(name);
+  const auto [first, rest] = split_name(scope, name);
   SdfFrame* const frame = find_frame(scope, first, from);
   if (frame == nullptr) return {};
   if (frame->model != nullptr) return link_of(*frame->model, rest, from, depth + 1);

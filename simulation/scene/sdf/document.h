@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "language/syntax/files.h"
@@ -26,6 +27,7 @@ struct SdfFrame {
 
 /// A model, or the world, which holds the outermost models.
 struct SdfModel {
+  std::string own_name;  ///< in the model that holds it
   std::string name;      ///< with those of the models around it, "arm::hand"; "" of the world
   XmlElement element;    ///< what holds its links
   XmlElement placed_by;  ///< what gives its pose: an <include>, or itself
@@ -36,6 +38,8 @@ struct SdfModel {
   std::vector<std::unique_ptr<SdfModel>> models;
   std::unordered_map<std::string, SdfFrame> frames;
   std::vector<std::string> links;  ///< their names, in the file's order
+  /// Joints called like something else, which formats before 1.7 allow; they are no frames.
+  std::unordered_set<std::string> joints;
 };
 
 class SdfDocument {
@@ -49,8 +53,10 @@ class SdfDocument {
   SdfModel& world() { return world_; }
   const XmlElement& root() const { return root_; }
   const std::filesystem::path& path_of(const XmlElement& element) const;
-  /// Models in other models and all frames of `model` are known below this depth.
+  /// Models stand in models at most so deep.
   static constexpr std::size_t deepest = 100;
+  /// Files that are included and hold a light or an actor.
+  std::size_t lights() const { return lights_; }
 
   /// Where `name` stands in `scope`: X_SF. `from` is where that name is written.
   Pose pose_of(SdfModel& scope, std::string_view name, const XmlElement& from,
@@ -68,14 +74,23 @@ class SdfDocument {
   };
   LinkName link_of(SdfModel& scope, std::string_view name, const XmlElement& from,
                    std::size_t depth = 0);
-  /// Whether an element says `true` or 1; `otherwise` where there is none.
+  /// What an element says, `true` or 1, `false` or 0, in letters of any size; `otherwise` where there is
+  /// none. Anything else is an error.
   static bool flag(const XmlElement& parent, const char* name, bool otherwise);
+  static bool flag_attribute(const XmlElement& of, const char* name);
   /// The text of an element in another, trimmed; "" where there is none.
   static std::string text_of(const XmlElement& parent, const char* name);
   static XmlElement child(const XmlElement& parent, const char* name);
 
  private:
-  XmlElement open_file(const std::filesystem::path& path, const XmlElement& from, int& version);
+  /// What an included file holds.
+  struct Opened {
+    XmlElement model;
+    int version = 0;
+    bool is_light = false;
+  };
+  /// Parsed once, however often it is included.
+  const Opened& open_file(const std::filesystem::path& path);
   int version_of(const XmlElement& root);
   void read_contents(SdfModel& model, std::size_t depth);
   void add_model(SdfModel& outer, const XmlElement& element, const XmlElement& placed_by,
@@ -94,7 +109,9 @@ class SdfDocument {
   std::unordered_map<const UrdfXml*, std::filesystem::path> paths_;
   std::vector<std::string>
       including_;  ///< paths of the files that include each other, outermost first
-  std::size_t included_ = 0;
+  std::unordered_map<std::string, Opened> opened_;
+  std::size_t included_ = 0;  ///< models so far
+  std::size_t lights_ = 0;
   XmlElement root_;
   SdfModel world_;
 };

@@ -56,16 +56,12 @@ std::optional<SdfGround> read_heights(const XmlElement& heightmap, const Pose& X
   const Quaterniond& q = X_WC.orientation;
   if (std::abs(q.x) + std::abs(q.y) + std::abs(q.z) > straight)
     return fail("a heightmap that is turned is not read: turn the rest of the world");
-  const std::vector<std::filesystem::path> places =
-      mesh_places(name, document.path_of(heightmap), files.search_path());
-  std::error_code ignored;
-  const auto found = std::ranges::find_if(places, [&](const std::filesystem::path& path) {
-    return std::filesystem::is_regular_file(path, ignored);
-  });
-  if (found == places.end()) return fail(fmt::format("there is no image `{}`", name));
-  const std::string path = found->lexically_normal().string();
+  const std::filesystem::path found =
+      first_file(mesh_places(name, document.path_of(heightmap), files.search_path()));
+  if (found.empty()) return fail(fmt::format("there is no image `{}`", name));
+  const std::string path = found.string();
   const PngGridResult& image =
-      files.keep<PngGridResult>("heights " + path, [&] { return read_png_grid(*found, 0., 1.); });
+      files.keep<PngGridResult>("heights " + path, [&] { return read_png_grid(found, 0., 1.); });
   if (!image.grid) return fail(fmt::format("`{}`: {}", name, image.message));
   const double brightest = *std::ranges::max_element(image.grid->heights);
   SdfGround ground;
@@ -89,7 +85,9 @@ std::optional<SdfGround> read_heights(const XmlElement& heightmap, const Pose& X
 
 double sdf_number(const XmlElement& parent, const char* name, double otherwise) {
   const XmlElement element = SdfDocument::child(parent, name);
-  return element.node ? element.file->content(element.node) : otherwise;
+  // What is empty says nothing.
+  return SdfDocument::text_of(parent, name).empty() ? otherwise
+                                                    : element.file->content(element.node);
 }
 
 Vector3d sdf_vector(const XmlElement& parent, const char* name, const Vector3d& otherwise) {
@@ -98,6 +96,7 @@ Vector3d sdf_vector(const XmlElement& parent, const char* name, const Vector3d& 
   const std::size_t before = element.file->errors();
   const std::vector<double> x = element.file->content_numbers(element.node, 3);
   if (element.file->errors() != before) return otherwise;
+  if (x.empty()) return otherwise;
   if (x.size() == 3) return {x[0], x[1], x[2]};
   element.file->fail(element.place(), fmt::format("<{}> takes three numbers", name));
   return otherwise;
@@ -161,6 +160,7 @@ std::optional<ShapeGeometry> read_sdf_shape(const XmlElement& geometry) {
 bool sdf_touches(const XmlElement& collision) {
   const XmlElement contact =
       SdfDocument::child(SdfDocument::child(collision, "surface"), "contact");
+  if (SdfDocument::flag(contact, "collide_without_contact", false)) return false;
   const std::string mask = SdfDocument::text_of(contact, "collide_bitmask");
   if (mask.empty()) return true;
   char* end = nullptr;
@@ -181,7 +181,10 @@ std::optional<SurfaceMaterial> read_sdf_surface(const XmlElement& collision, Sta
   const auto not_negative = [](const XmlElement& parent,
                                const char* name) -> std::optional<double> {
     const XmlElement element = SdfDocument::child(parent, name);
-    if (!element.node) return std::nullopt;
+    if (SdfDocument::text_of(parent, name).empty()) return std::nullopt;
+    // Gazebo's own default of kp is 1e13; infinite friction is written as inf.
+    constexpr double greatest = 1e12;
+    if (element.node.text().as_double() > greatest) return greatest;
     const double value = element.file->content(element.node);
     if (value < 0.) element.file->fail(element.place(), fmt::format("<{}> is not negative", name));
     return std::max(value, 0.);
@@ -196,6 +199,7 @@ std::optional<SurfaceMaterial> read_sdf_surface(const XmlElement& collision, Sta
   for (const char* slip : {"slip1", "slip2"}) {
     if (not_negative(ode, slip).value_or(0.) > 0.) ++left_out[slip];
   }
+  if (SdfDocument::child(ode, "fdir1").node) ++left_out["<fdir1>"];
   if (SdfDocument::child(friction, "torsional").node) ++left_out["<torsional> friction"];
   if (counts == StatedContact::file) {
     const XmlElement contact = SdfDocument::child(surface, "contact");

@@ -30,6 +30,9 @@ struct SdfLink {
   Pose X_LF;  ///< the frame that it has here, at the joint that carries it
 };
 
+/// What the joint about the second axis of a universal one is called beyond it.
+constexpr const char* second_axis = "_2";
+
 /// A joint, and what it joins: indices of links; the world's is `no_link`.
 constexpr std::size_t no_link = static_cast<std::size_t>(-1);
 struct SdfJoint {
@@ -37,8 +40,21 @@ struct SdfJoint {
   SdfModel* scope = nullptr;
   std::string full_name;
   std::size_t parent = no_link, child = no_link;
+  Pose X_MS;  ///< of its scope
   Pose X_MJ;
+
+  /// The name, in the outermost model, of what its scope calls `name`.
+  std::string full(const std::string& other) const {
+    return full_name.substr(0, full_name.size() - element.text("name").size()) + other;
+  }
 };
+
+/// "mesh", for instance.
+std::string_view kind_of(const XmlElement& geometry) {
+  const pugi::xml_node shape = geometry.node.find_child(
+      [](const pugi::xml_node& node) { return node.type() == pugi::node_element; });
+  return shape ? shape.name() : "geometry";
+}
 
 class SdfReader {
  public:
@@ -75,7 +91,7 @@ class SdfReader {
   UrdfJoint read_axis(const SdfJoint& of, const char* which, const Pose& X_MF);
   void read_limits(const XmlElement& axis, bool bounded, UrdfJoint& joint);
   void read_dynamics(const XmlElement& axis, UrdfJoint& joint);
-  void read_mimic(const XmlElement& axis, UrdfJoint& joint);
+  void read_mimic(const SdfJoint& of, const XmlElement& axis, UrdfJoint& joint);
   std::string material_of(const XmlElement& collision);
 
   SdfDocument document_;
@@ -94,6 +110,7 @@ std::optional<SdfScene> SdfReader::run() {
   SdfModel& world = document_.world();
   scene_.place = world.element.place();
   if (world.element.tag() == "world") list_left_out(world.element, {"model", "include", "frame"});
+  if (document_.lights() > 0) scene_.left_out["included light or actor"] += document_.lights();
   for (const auto& model : world.models) {
     if (!report_.full()) read_model(*model);
   }
@@ -113,7 +130,7 @@ void SdfReader::list_left_out(const XmlElement& of, std::initializer_list<std::s
 }
 
 void SdfReader::read_model(SdfModel& model) {
-  const Pose X_WM = document_.pose_of(document_.world(), model.name, model.placed_by);
+  const Pose X_WM = document_.pose_of(document_.world(), model.own_name, model.placed_by);
   if (model.is_static) return read_static_model(model, X_WM);
   links_.clear();
   joints_.clear();
@@ -140,7 +157,7 @@ void SdfReader::read_static_model(SdfModel& model, const Pose& X_WM) {
     }
   }
   for (const auto& inner : model.models) {
-    const std::string name = inner->name.substr(model.name.size() + 2);
+    const std::string& name = inner->own_name;
     read_static_model(*inner, X_WM * document_.pose_of(model, name, inner->placed_by));
   }
 }
@@ -165,12 +182,14 @@ void SdfReader::read_static_collision(const SdfModel& model, const XmlElement& c
                            true,
                            material_of(collision)});
   } else if (!add_mesh_of(collision, geometry, X_WC, link)) {
-    return leave_out(fmt::format("static <{}>", geometry.node.first_child().name()));
+    return leave_out(fmt::format("static <{}>", kind_of(geometry)));
   }
   if (!link.points.empty()) {
     std::vector<Vector3d> corners;
     for (const UrdfPoint& point : link.points) corners.push_back(point.position);
-    link.shapes.push_back({{convex_hull(corners), {}, {}, 0},
+    Hull hull = convex_hull(corners);
+    if (hull.faces.empty()) return leave_out("static mesh that is flat");
+    link.shapes.push_back({{std::move(hull), {}, {}, 0},
                            link.points.front().place,
                            true,
                            link.points.front().material});
@@ -204,7 +223,7 @@ void SdfReader::gather(SdfModel& model, const Pose& X_OM, const std::string& abo
         {element, &model, name, above + name, X_OM * document_.pose_of(model, name, element), {}});
   }
   for (const auto& inner : model.models) {
-    const std::string name = inner->name.substr(model.name.size() + 2);
+    const std::string& name = inner->own_name;
     gather(*inner, X_OM * document_.pose_of(model, name, inner->placed_by), above + name + "::");
   }
   // Joints may name links of the models inside.
@@ -212,6 +231,9 @@ void SdfReader::gather(SdfModel& model, const Pose& X_OM, const std::string& abo
     gather_joint(model, {node, model.element.file}, X_OM, above);
   list_left_out(model.element, {"pose", "static", "link", "joint", "frame", "model", "include",
                                 "allow_auto_disable", "enable_wind"});
+  for (const auto& inner : model.models) {
+    if (inner->is_static) leave_out("<static> of a model in one that moves");
+  }
 }
 
 std::size_t SdfReader::link_index(SdfModel& scope, const char* role, const XmlElement& joint) {
@@ -233,7 +255,7 @@ void SdfReader::gather_joint(SdfModel& model, const XmlElement& element, const P
                              const std::string& above) {
   const std::string name = element.text("name");
   if (name.empty()) return;
-  SdfJoint joint{element, &model, above + name, no_link, no_link, {}};
+  SdfJoint joint{element, &model, above + name, no_link, no_link, X_OM, {}};
   joint.parent = link_index(model, "parent", element);
   joint.child = link_index(model, "child", element);
   if (joint.child == no_link) {
@@ -241,7 +263,8 @@ void SdfReader::gather_joint(SdfModel& model, const XmlElement& element, const P
       element.file->fail(element.place(), fmt::format("joint `{}` carries the world", name));
     return;
   }
-  joint.X_MJ = X_OM * document_.pose_of(model, name, element);
+  joint.X_MJ =
+      X_OM * document_.pose_of_element(model, element, SdfDocument::text_of(element, "child"));
   joints_.push_back(std::move(joint));
 }
 
@@ -325,7 +348,7 @@ UrdfLink SdfReader::read_link(const SdfLink& of) {
   const XmlElement inertial = SdfDocument::child(of.element, "inertial");
   link.inertial_place = inertial.node ? inertial.place() : link.place;
   dts::MassProperties<double> mass;
-  if (inertial.text("auto") == "true" || inertial.text("auto") == "1") {
+  if (SdfDocument::flag_attribute(inertial, "auto")) {
     mass = mass_of_collisions(of.element, *of.scope, of.name, document_);
   } else {
     if (!inertial.node) leave_out("<inertial> that is not given: 1 kg and 1 kg m^2");
@@ -358,8 +381,7 @@ void SdfReader::read_link_shapes(const SdfLink& of, UrdfLink& link) {
       continue;
     }
     if (touches && add_mesh_of(element, geometry, X_FS, link)) continue;
-    const std::string_view kind = geometry.node.first_child().name();
-    leave_out(fmt::format("<{}> of <{}>", kind.empty() ? "geometry" : kind, element.tag()));
+    leave_out(fmt::format("<{}> of <{}>", kind_of(geometry), element.tag()));
   }
 }
 
@@ -405,19 +427,17 @@ void SdfReader::add_joint(const SdfJoint& of, const Pose& X_MW,
     const std::size_t middle = robot.links.size();
     robot.links.push_back(std::move(between));
     UrdfJoint first = read_axis(of, "axis", X_MC), second = read_axis(of, "axis2", X_MC);
-    second.name += "_2";
+    second.name += second_axis;
     add(std::move(first), parent, middle, X_PC);
     return add(std::move(second), middle, child, {});
   }
-  const std::string advice =
-      type == "ball" ? "a ball joint is not read: write three revolute joints" : "";
-  const bool known = type == "ball" || type == "screw" || type == "gearbox";
-  element.file->fail(element.place("type"),
-                     !advice.empty() ? advice
-                     : known         ? fmt::format("a {} joint is not read", type)
-                                     : fmt::format("`{}` is no type of joint: expected revolute, "
-                                                           "continuous, prismatic, universal, revolute2 or fixed",
-                                                   type));
+  std::string problem = fmt::format(
+      "`{}` is no type of joint: expected revolute, continuous, prismatic, universal, revolute2 or "
+      "fixed",
+      type);
+  if (type == "ball") problem = "a ball joint is not read: write three revolute joints";
+  if (type == "screw" || type == "gearbox") problem = fmt::format("a {} joint is not read", type);
+  element.file->fail(element.place("type"), problem);
 }
 
 UrdfJoint SdfReader::read_axis(const SdfJoint& of, const char* which, const Pose& X_MF) {
@@ -435,15 +455,14 @@ UrdfJoint SdfReader::read_axis(const SdfJoint& of, const char* which, const Pose
   // was the model's.
   const XmlElement xyz = SdfDocument::child(axis, "xyz");
   const std::string expressed_in = xyz.text("expressed_in");
-  constexpr int joint_axes = 1005;
+  constexpr int joint_axes = 1005, named_frames = 1007;
+  const int version = of.scope->version;
   const bool in_model =
-      of.scope->version < joint_axes || SdfDocument::flag(axis, "use_parent_model_frame", false);
+      version < joint_axes ||
+      (version < named_frames && SdfDocument::flag(axis, "use_parent_model_frame", false));
   Pose X_MA = of.X_MJ;
-  if (!expressed_in.empty() || in_model) {
-    const Pose X_SA = document_.pose_of(*of.scope, expressed_in, xyz.node ? xyz : of.element);
-    const Pose X_SJ = document_.pose_of(*of.scope, of.element.text("name"), of.element);
-    X_MA = of.X_MJ * inverse(X_SJ) * X_SA;
-  }
+  if (!expressed_in.empty() || in_model)
+    X_MA = of.X_MS * document_.pose_of(*of.scope, expressed_in, xyz.node ? xyz : of.element);
   direction = rotate(conjugate(X_MF.orientation) * X_MA.orientation, direction);
   joint.axis = (1. / norm(direction)) * direction;
   joint.limit_place = joint.damping_place = joint.friction_place = of.element.place();
@@ -451,7 +470,7 @@ UrdfJoint SdfReader::read_axis(const SdfJoint& of, const char* which, const Pose
   if (!axis.node) return joint;
   read_limits(axis, type != "continuous", joint);
   read_dynamics(axis, joint);
-  if (joint.type != UrdfJointType::fixed) read_mimic(axis, joint);
+  if (joint.type != UrdfJointType::fixed) read_mimic(of, axis, joint);
   if (axis.node.child("initial_position")) joint.angle = sdf_number(axis, "initial_position", 0.);
   return joint;
 }
@@ -464,7 +483,8 @@ void SdfReader::read_limits(const XmlElement& axis, bool bounded, UrdfJoint& joi
   const auto bound = [&](const char* name) -> std::optional<double> {
     constexpr double endless = 1e12;
     const XmlElement element = SdfDocument::child(limit, name);
-    if (!element.node || !(std::abs(element.node.text().as_double()) <= endless))
+    if (SdfDocument::text_of(limit, name).empty() ||
+        !(std::abs(element.node.text().as_double()) <= endless))
       return std::nullopt;
     return element.file->content(element.node);
   };
@@ -510,7 +530,7 @@ void SdfReader::read_dynamics(const XmlElement& axis, UrdfJoint& joint) {
 }
 
 // q = multiplier (q_leader - reference) + offset.
-void SdfReader::read_mimic(const XmlElement& axis, UrdfJoint& joint) {
+void SdfReader::read_mimic(const SdfJoint& of, const XmlElement& axis, UrdfJoint& joint) {
   const XmlElement mimic = SdfDocument::child(axis, "mimic");
   if (!mimic.node) return;
   if (choices_.mimic == UrdfMimic::ignore) return leave_out("<mimic>: the joint moves by itself");
@@ -520,8 +540,9 @@ void SdfReader::read_mimic(const XmlElement& axis, UrdfJoint& joint) {
     return fix_joint(offset, joint);
   }
   const double ratio = sdf_number(mimic, "multiplier", 1.);
-  joint.follows = {mimic.text("joint"), ratio, offset - ratio * sdf_number(mimic, "reference", 0.),
-                   mimic.place()};
+  const std::string second = mimic.text("axis") == "axis2" ? second_axis : "";
+  joint.follows = {of.full(mimic.text("joint")) + second, ratio,
+                   offset - ratio * sdf_number(mimic, "reference", 0.), mimic.place()};
 }
 
 }  // namespace

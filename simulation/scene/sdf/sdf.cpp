@@ -4,9 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <set>
+#include <map>
 
 namespace hookpoint::simulation {
 namespace {
@@ -17,37 +16,38 @@ using language::ForeignObject;
 using language::Value;
 using language::ValueKind;
 
-/// Arguments with a meaning of their own.
-constexpr std::array sdf_arguments{"name",  "base", "shapes",  "meshes", "contact",
-                                   "mimic", "lock", "inertia", "hold",   "rotor_inertia"};
-
 class SdfInclude : private RobotInclude {
  public:
   SdfInclude(const ForeignArguments& arguments, language::FileStore& files,
              language::Report& report)
-      : RobotInclude(arguments, sdf_arguments, files, report) {}
+      : RobotInclude(arguments, robot_arguments, files, report) {}
 
   std::vector<ForeignObject> run(const language::SourceFile& file) {
     const std::string shapes = word_argument("shapes", {"collision", "visual", "inertia"});
-    auto scene = read_sdf(file, choices(shapes), files_, report_);
+    const UrdfChoices choices = choices_argument(shapes);
+    auto scene = read_sdf(file, choices, files_, report_);
     if (!scene) return {};
     check_arguments(scene->robots);
     lock_joints(scene->robots);
+    for (const UrdfRobot& robot : scene->robots) {
+      for (const auto& [what, times] : robot.left_out) scene->left_out[what] += times;
+    }
     tell_left_out(scene->left_out, scene->place);
-    prefix_ = is_given("name") && scene->robots.size() != 1 ? robot_name("") + "_" : "";
+    const bool one = scene->robots.size() == 1;
+    prefix_ = is_given("name") ? robot_name("") + "_" : "";
+    surface_ = (one ? robot_name(scene->robots.front().name) + "_" : prefix_) + "surface_";
     std::vector<ForeignObject> objects =
-        material_objects(scene->materials, material_name(""), scene->robots);
+        material_objects(scene->materials, surface_, scene->robots);
     if (scene->ground) add_ground(*scene->ground, objects);
     for (SdfSolid& solid : scene->solids) {
       ForeignObject object{"", unique(prefix_ + identifier(solid.name)), solid.shape.place, {}, {}};
-      if (!solid.shape.material.empty()) solid.shape.material = material_name(solid.shape.material);
+      if (!solid.shape.material.empty()) solid.shape.material.insert(0, surface_);
       object.type = "Obstacle." + add_shape_fields(solid.shape, object);
       objects.push_back(std::move(object));
     }
     for (UrdfRobot& robot : scene->robots) {
       const bool is_first = &robot == &scene->robots.front();
-      const std::string name =
-          scene->robots.size() == 1 ? robot_name(robot.name) : prefix_ + identifier(robot.name);
+      const std::string name = one ? robot_name(robot.name) : prefix_ + identifier(robot.name);
       for (ForeignObject& object :
            robot_objects(robot, unique(name), shapes == "inertia", is_first))
         objects.push_back(std::move(object));
@@ -56,19 +56,10 @@ class SdfInclude : private RobotInclude {
   }
 
  private:
-  UrdfChoices choices(const std::string& shapes) {
-    const UrdfShapes of = shapes == "visual" ? UrdfShapes::visual : UrdfShapes::collision;
-    return {{of, meshes_argument()}, mimic_argument(), inertia_argument(), contact_argument()};
-  }
-
-  std::string material_name(const std::string& name) { return prefix_ + "surface_" + name; }
-
   std::string unique(std::string name) {
-    if (names_.insert(name).second) return name;
-    for (std::size_t number = 2;; ++number) {
-      std::string other = fmt::format("{}_{}", name, number);
-      if (names_.insert(other).second) return other;
-    }
+    std::size_t& number = names_[name];
+    if (++number == 1) return name;
+    return unique(fmt::format("{}_{}", name, number));
   }
 
   void add_ground(const SdfGround& ground, std::vector<ForeignObject>& objects) {
@@ -109,13 +100,13 @@ class SdfInclude : private RobotInclude {
       add("angle", {angle});
       add("azimuth", {std::atan2(n.y, n.x)});
     }
-    if (!ground.material.empty())
-      add_text("material", material_name(ground.material), ValueKind::word);
+    if (!ground.material.empty()) add_text("material", surface_ + ground.material, ValueKind::word);
     objects.push_back(std::move(object));
   }
 
-  std::string prefix_;  ///< of all names, where the file holds several robots and `name` is given
-  std::set<std::string> names_;
+  std::string prefix_;   ///< of all names but that of a single robot, where `name` is given
+  std::string surface_;  ///< of the names of Materials
+  std::map<std::string, std::size_t> names_;  ///< and how often each was requested
 };
 
 }  // namespace

@@ -21,8 +21,9 @@ void fix_joint(double q, UrdfJoint& joint) {
 }
 
 double start_of(const UrdfJoint& joint) {
-  const double angle = joint.angle.value_or(0.);
-  return joint.lower_limit ? std::clamp(angle, *joint.lower_limit, *joint.upper_limit) : angle;
+  double angle = joint.angle.value_or(0.);
+  if (joint.lower_limit) angle = std::max(angle, *joint.lower_limit);
+  return joint.upper_limit ? std::min(angle, *joint.upper_limit) : angle;
 }
 
 void settle_followers(UrdfRobot& robot, language::Report& report) {

@@ -1,4 +1,4 @@
-// Where the file lies that a <mesh filename="..."> names.
+// Where the files lie that a robot's file names: meshes, models.
 #pragma once
 
 #include <filesystem>
@@ -15,5 +15,14 @@ namespace hookpoint::simulation {
 std::vector<std::filesystem::path> mesh_places(
     const std::string& filename, const std::filesystem::path& robot,
     const std::vector<std::filesystem::path>& search_path);
+
+/// The same of a model of SDFormat: `model://NAME/REST` is in a folder NAME alone, whatever package is
+/// around it.
+std::vector<std::filesystem::path> model_places(
+    const std::string& uri, const std::filesystem::path& file,
+    const std::vector<std::filesystem::path>& search_path);
+
+/// The first of them that is a file; empty, where none is.
+std::filesystem::path first_file(const std::vector<std::filesystem::path>& places);
 
 }  // namespace hookpoint::simulation

@@ -20,11 +20,8 @@ const MeshPoints* find_mesh(const std::string& filename, const language::Positio
                      : "a mesh is named by a path, or by package://NAME/PATH or file://PATH");
     return nullptr;
   }
-  std::error_code ignored;
-  const auto found = std::ranges::find_if(places, [&](const std::filesystem::path& path) {
-    return std::filesystem::is_regular_file(path, ignored);
-  });
-  if (found == places.end()) {
+  const std::filesystem::path found = first_file(places);
+  if (found.empty()) {
     std::string tried;
     for (const std::filesystem::path& path : places)
       tried += fmt::format("{}{}", tried.empty() ? "" : ", ", path.string());
@@ -33,9 +30,8 @@ const MeshPoints* find_mesh(const std::string& filename, const language::Positio
                              filename, tried));
     return nullptr;
   }
-  const std::string path = found->lexically_normal().string();
-  const MeshPoints& mesh =
-      files.keep<MeshPoints>("mesh " + path, [&] { return read_mesh(*found); });
+  const std::string path = found.string();
+  const MeshPoints& mesh = files.keep<MeshPoints>("mesh " + path, [&] { return read_mesh(found); });
   if (mesh.problem.empty()) return &mesh;
   xml.fail(at, fmt::format("the mesh {} cannot be read: {}", path, mesh.problem));
   return nullptr;

@@ -288,7 +288,7 @@ ForeignObject RobotInclude::base_object(const UrdfRobot& robot, const UrdfTree& 
   for (const char* name : base_fields) {
     if (placed && is_given(name)) object.fields.push_back(arguments_.at(name));
   }
-  if (robot.start && kind == "mobile") add_start(*robot.start, placed, object);
+  if (robot.start) add_start(*robot.start, placed, object);
   add_body(body, object);
   return object;
 }
@@ -303,6 +303,7 @@ void RobotInclude::add_start(const UrdfStart& start, bool placed, ForeignObject&
     add("location", {p.x, p.y, p.z});
     add("orientation", {q.w, q.x, q.y, q.z});
   }
+  if (base.type == "Base.fixed") return;
   const Vector3d &v = start.velocity, &w = start.angular_velocity;
   if (v != Vector3d{}) add("velocity", {v.x, v.y, v.z});
   if (w != Vector3d{}) add("angular_velocity", {w.x, w.y, w.z});
@@ -432,6 +433,11 @@ StatedContact RobotInclude::contact_argument() {
   return word == "ground" ? StatedContact::ground : StatedContact::friction;
 }
 
+UrdfChoices RobotInclude::choices_argument(const std::string& shapes) {
+  const UrdfShapes of = shapes == "visual" ? UrdfShapes::visual : UrdfShapes::collision;
+  return {{of, meshes_argument()}, mimic_argument(), inertia_argument(), contact_argument()};
+}
+
 UrdfMeshes RobotInclude::meshes_argument() {
   const std::string word = word_argument("meshes", {"skip", "box", "hull"});
   if (word == "hull") return UrdfMeshes::hull;
@@ -535,10 +541,10 @@ bool RobotInclude::is_given(const std::string& name) const {
 void RobotInclude::check_arguments(std::span<const UrdfRobot> robots,
                                    const std::vector<std::string>& further) {
   std::vector<std::string> known(own_arguments_.begin(), own_arguments_.end());
-  known.insert(known.end(), base_fields.begin(), base_fields.end());
+  if (!robots.empty()) known.insert(known.end(), base_fields.begin(), base_fields.end());
   for (const UrdfRobot& robot : robots) {
     for (const UrdfJoint& joint : robot.joints) {
-      if (joint.type == UrdfJointType::fixed) continue;
+      if (joint.type == UrdfJointType::fixed || joint.type == UrdfJointType::floating) continue;
       known.push_back(identifier(joint.name));
       known.push_back(known.back() + rotor_argument);
     }

@@ -2,6 +2,7 @@
 // objects of the language that links and joints come to.
 #pragma once
 
+#include <array>
 #include <map>
 #include <optional>
 #include <span>
@@ -23,6 +24,10 @@ std::string identifier(std::string text);
 /// A field of numbers, SI.
 language::ForeignField numbers(const char* name, const std::vector<double>& of,
                                const language::Position& place);
+
+/// Arguments of every format, beside fields of the base and names of joints.
+inline constexpr std::array robot_arguments{"name",  "base", "shapes",  "meshes", "contact",
+                                            "mimic", "lock", "inertia", "hold",   "rotor_inertia"};
 
 class RobotInclude {
  public:
@@ -53,6 +58,7 @@ class RobotInclude {
   UrdfInertia inertia_argument();
   /// What of surfaces and meshes counts.
   StatedContact contact_argument();
+  UrdfChoices choices_argument(const std::string& shapes);
   UrdfMeshes meshes_argument();
   /// An error for each argument that means nothing to one of the robots.
   void check_arguments(std::span<const UrdfRobot> robots,

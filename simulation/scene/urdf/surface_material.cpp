@@ -6,9 +6,16 @@
 
 namespace hookpoint::simulation {
 
-std::string add_material(SurfaceMaterial material, std::vector<SurfaceMaterial>& known) {
-  std::string& name = material.name;
-  name.clear();
+namespace {
+
+bool same_surface(const SurfaceMaterial& a, const SurfaceMaterial& b) {
+  return a.friction == b.friction && a.stiffness == b.stiffness && a.damping == b.damping &&
+         a.restitution == b.restitution && a.rolling == b.rolling && a.spinning == b.spinning;
+}
+
+/// The values to six digits, in letters that a name may have.
+std::string name_of_values(const SurfaceMaterial& material) {
+  std::string name;
   const auto add = [&](const char* what, const std::optional<double>& value) {
     if (value) name += fmt::format("{}{}_{:g}", name.empty() ? "" : "_", what, *value);
   };
@@ -18,12 +25,25 @@ std::string add_material(SurfaceMaterial material, std::vector<SurfaceMaterial>&
   add("e", material.restitution);
   add("rolling", material.rolling);
   add("spinning", material.spinning);
+  std::ranges::replace(name, '-', 'm');
   std::ranges::replace_if(
-      name, [](char c) { return c == '.' || c == '-' || c == '+'; }, '_');
-  std::string found = name;
-  if (std::ranges::count(known, name, &SurfaceMaterial::name) == 0)
-    known.push_back(std::move(material));
-  return found;
+      name, [](char c) { return c == '.' || c == '+'; }, '_');
+  return name;
+}
+
+}  // namespace
+
+std::string add_material(SurfaceMaterial material, std::vector<SurfaceMaterial>& known) {
+  const auto same = std::ranges::find_if(
+      known, [&](const SurfaceMaterial& other) { return same_surface(material, other); });
+  if (same != known.end()) return same->name;
+  const std::string name = name_of_values(material);
+  material.name = name;
+  for (std::size_t number = 2; std::ranges::count(known, material.name, &SurfaceMaterial::name) > 0;
+       ++number)
+    material.name = fmt::format("{}_{}", name, number);
+  known.push_back(material);
+  return material.name;
 }
 
 }  // namespace hookpoint::simulation

@@ -25,7 +25,8 @@ struct SurfaceMaterial {
 /// What of a surface counts: nothing, its friction, or all that the file states.
 enum class StatedContact { ground, friction, file };
 
-/// The name of `material` among `known`, which it joins if it is new: the name says its values.
+/// The name of `material` among `known`, which it joins if none of the same values is there; the name
+/// says them.
 std::string add_material(SurfaceMaterial material, std::vector<SurfaceMaterial>& known);
 
 }  // namespace hookpoint::simulation

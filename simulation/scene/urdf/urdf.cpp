@@ -1,8 +1,6 @@
 // A URDF's robot as objects of the language, with the arguments of its Include.
 #include "simulation/scene/urdf/urdf.h"
 
-#include <array>
-
 #include "language/document/document.h"
 #include "simulation/scene/urdf/robot_include.h"
 #include "simulation/scene/urdf/xacro.h"
@@ -13,22 +11,17 @@ namespace {
 using language::ForeignArguments;
 using language::ForeignObject;
 
-/// Arguments with a meaning of their own.
-constexpr std::array urdf_arguments{"name",  "base", "shapes",  "meshes", "contact",
-                                    "mimic", "lock", "inertia", "hold",   "rotor_inertia"};
 class UrdfInclude : private RobotInclude {
  public:
   UrdfInclude(const ForeignArguments& arguments, language::FileStore& files,
               language::Report& report)
-      : RobotInclude(arguments, urdf_arguments, files, report) {}
+      : RobotInclude(arguments, robot_arguments, files, report) {}
 
   std::vector<ForeignObject> run(const language::SourceFile& file) {
     const ExpandedUrdf expanded = expand_xacro(file, arguments_, own_arguments_, files_, report_);
     if (expanded.source == nullptr) return {};
     const std::string shapes = word_argument("shapes", {"collision", "visual", "inertia"});
-    const UrdfShapes of = shapes == "visual" ? UrdfShapes::visual : UrdfShapes::collision;
-    const UrdfChoices choices{
-        {of, meshes_argument()}, mimic_argument(), inertia_argument(), contact_argument()};
+    const UrdfChoices choices = choices_argument(shapes);
     auto robot = read_urdf(*expanded.source, choices, files_, report_);
     if (!robot) return {};
     // A file that a run is repeated from is the one that was written.

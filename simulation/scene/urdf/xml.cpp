@@ -66,8 +66,19 @@ double UrdfXml::not_negative(const pugi::xml_node& node, const char* attribute) 
   return value;
 }
 
+std::string UrdfXml::text_in(const pugi::xml_node& node) {
+  std::string text;
+  for (const pugi::xml_node& part : node.children()) {
+    if (part.type() == pugi::node_pcdata || part.type() == pugi::node_cdata)
+      text += (text.empty() ? "" : " ") + std::string(part.value());
+  }
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
 double UrdfXml::content(const pugi::xml_node& node) {
-  return parse(node.text().get(), place(node)).value_or(0.);
+  return parse(text_in(node), place(node)).value_or(0.);
 }
 
 std::optional<double> UrdfXml::bound(const pugi::xml_node& node, const char* attribute) {
@@ -89,7 +100,7 @@ std::vector<double> UrdfXml::numbers(const pugi::xml_node& node, const char* att
 }
 
 std::vector<double> UrdfXml::content_numbers(const pugi::xml_node& node, std::size_t most) {
-  return parse_all(node.text().get(), place(node), fmt::format("<{}>", node.name()), most);
+  return parse_all(text_in(node), place(node), fmt::format("<{}>", node.name()), most);
 }
 
 std::vector<double> UrdfXml::parse_all(std::string_view text, const Position& at,

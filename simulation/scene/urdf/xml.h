@@ -29,6 +29,8 @@ class UrdfXml {
   /// A number, `otherwise` where it is not given; 0 after an error.
   double number(const pugi::xml_node& node, const char* attribute, std::optional<double> otherwise);
   double not_negative(const pugi::xml_node& node, const char* attribute);
+  /// What stands in an element, comments and blanks at the ends left out.
+  static std::string text_in(const pugi::xml_node& node);
   /// The number that stands in an element; 0 after an error.
   double content(const pugi::xml_node& node);
   /// The numbers that stand in an element, none after an error; more than `most` are an error.
