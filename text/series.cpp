@@ -139,7 +139,7 @@ class SeriesReader {
     if (unit.empty() && request_.unit_of_time_needed)
       return fails("the column `" + shown(column.title) +
                        "` is no time: its title says the unit, as `time [s]` does, or "
-                       "`time_unit = ms` says it",
+                       "`time_unit = \"ms\"` says it",
                    SeriesFault::About::time);
     const auto parsed = parse_unit(unit.empty() ? "s" : usual_unit(unit));
     if (parsed && parsed->dimension == time_dimension) {
@@ -182,7 +182,7 @@ class SeriesReader {
     const auto parsed = parse_unit(usual_unit(unit));
     if (!parsed)
       return fails("`" + shown(unit) + "` of the column `" + shown(column.name) +
-                       "` is no unit: `unit = N` states the one that is meant",
+                       "` is no unit: `unit = \"N\"` states the one that is meant",
                    SeriesFault::About::column);
     values_.push_back(index);
     result_.columns.push_back({column.title, unit, *parsed});
@@ -206,8 +206,8 @@ class SeriesReader {
       const double n = std::abs(first.number);
       const char* unit = n < 1e14 ? "ms" : n < 1e17 ? "us" : "ns";
       return fail(table_.lines[row], "its time, " + shown(fields[*time_]) +
-                                         ", is no count of seconds: `time_unit = " + unit +
-                                         "` says what it counts");
+                                         ", is no count of seconds: `time_unit = \"" + unit +
+                                         "\"` says what it counts");
     }
     if (request_.offset) return in_seconds(stamp->number) - *request_.offset;
     if (!counts_from_date(in_seconds(first.number))) return in_seconds(stamp->number);

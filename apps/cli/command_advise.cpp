@@ -22,8 +22,8 @@ std::string step_text(double step) { return std::isfinite(step) ? text::rounded(
 
 void print_ground(const GroundAdvice& ground) {
   fmt::print(
-      "robot {} on {}: {:.4g} N and {:.4g} kg on each of {} points (a blow at one feels "
-      "{:.4g} kg, joints free)\n",
+      "robot {} on {}: {:.4g} N and {:.4g} kg on each of {} points (effective mass of an impact "
+      "at one, joints free: {:.4g} kg)\n",
       ground.robot, ground.material, ground.load, ground.mass, ground.points, ground.least_mass);
   fmt::print("  {:<22} {:>12} {:>12}  {:<7} {}\n", "constant", "present", "advised", "unit",
              "so that");
@@ -124,7 +124,8 @@ bool read_wish(application::Application& application, const std::filesystem::pat
   wishes.trails.push_back(material + "." + field + "=" + *text);
   const auto root = application.evaluate_set(file, wishes);
   if (!root) return false;
-  const auto wished = application.load(*root);
+  // What the wish sets is not what the file says: that no law reads it is no news.
+  const auto wished = application.load(*root, application::Warnings::dropped);
   if (!wished) return false;
   const std::string name = material.substr(material.rfind('.') + 1);
   for (const simulation::MaterialSpec& spec : wished->materials) {

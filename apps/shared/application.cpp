@@ -242,7 +242,8 @@ std::unique_ptr<language::Object> Application::evaluate_set(const std::filesyste
   return evaluate(file, all);
 }
 
-std::optional<simulation::Experiment> Application::load(const language::Object& root) const {
+std::optional<simulation::Experiment> Application::load(const language::Object& root,
+                                                        Warnings warnings) const {
   language::Diagnostics diagnostics;
   auto experiment = simulation::load_experiment(root, diagnostics, search_path_);
   // What its windows name must be there, whether or not they are opened.
@@ -250,7 +251,8 @@ std::optional<simulation::Experiment> Application::load(const language::Object& 
     view::make_panel(root, *experiment, {}, diagnostics);
     view::check_ghosts(root, diagnostics);
   }
-  tell(diagnostics);
+  tell(warnings == Warnings::reported ? diagnostics
+                                      : diagnostics.without([](const auto&) { return true; }));
   if (diagnostics.error_count() > 0) return std::nullopt;
   return experiment;
 }

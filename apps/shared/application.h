@@ -30,6 +30,9 @@ void print_error(const std::string& message);
 language::Override override_from(const std::string& setting);
 language::EvaluateOptions options_from(const std::vector<std::string>& settings);
 
+/// What becomes of the warnings of a load.
+enum class Warnings { reported, dropped };
+
 class Application {
  public:
   /// Receives what is wrong with a file, if anything.
@@ -80,7 +83,8 @@ class Application {
                                                  const Settings& settings);
   /// The experiment of an evaluated file's world; its diagnostics are reported, empty when it has
   /// errors.
-  std::optional<simulation::Experiment> load(const language::Object& root) const;
+  std::optional<simulation::Experiment> load(const language::Object& root,
+                                             Warnings warnings = Warnings::reported) const;
   /// Both in one.
   std::optional<simulation::Experiment> load(const std::filesystem::path& file,
                                              const std::vector<std::string>& settings);

@@ -1,8 +1,10 @@
 #include "language/schema/describe.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <map>
 
 #include "language/names.h"
 #include "language/wording.h"
@@ -113,6 +115,34 @@ std::vector<std::pair<std::string, std::string>> class_facts(const ClassSchema& 
   return found;
 }
 
+/// The anchor of a heading, as GitHub and the manual's site make it.
+std::string anchor(const std::string& heading) {
+  std::string found;
+  for (const char c : heading) {
+    if (c == '.') continue;
+    found += c == ' ' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return found;
+}
+
+/// The classes by where they stand, each a link to its heading. Places of fewer than three share
+/// the last row.
+std::string class_index(const Schema& schema) {
+  std::map<std::string, std::vector<std::string>> by_place;
+  for (const auto& [name, entry] : schema.classes())
+    by_place[places(entry, &schema)].push_back("[" + name + "](#" + anchor(name) + ")");
+  std::string text = "\n| stands in | classes |\n|---|---|\n";
+  std::vector<std::string> others;
+  for (const auto& [place, links] : by_place) {
+    if (links.size() < 3 || place.empty()) {
+      others.insert(others.end(), links.begin(), links.end());
+    } else {
+      text += "| " + place + " | " + join(links, ", ") + " |\n";
+    }
+  }
+  return others.empty() ? text : text + "| elsewhere | " + join(others, ", ") + " |\n";
+}
+
 std::string describe_in(const ClassSchema& schema, const Schema* all) {
   std::string text = schema.name + (schema.only_in.empty() ? "" : " in " + schema.only_in) +
                      "\n  " + schema.doc + "\n";
@@ -150,7 +180,7 @@ std::string describe_markdown(const Schema& schema) {
       text.insert(at, "\\");
     return text;
   };
-  std::string text = "# Classes of the language\n";
+  std::string text = "# Classes of the language\n" + class_index(schema);
   for (const auto& [name, entry] : schema.classes()) {
     text += "\n## " + name + "\n\n" + entry.doc + "\n";
     const auto facts_of_class = class_facts(entry, &schema);

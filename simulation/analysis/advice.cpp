@@ -109,13 +109,13 @@ void advise_constants(GroundAdvice& ground, const contact::LawDescription& law,
   if (law.reads(&contact::Constants::tangential_stiffness))
     advise_constant(ground, present, Aim::friction, field_named("tangential_stiffness"),
                     ground.load / ground.wanted_depth,
-                    "a hook gives as much along the ground as the point sinks");
+                    "the hook's spring deflects as far as the point penetrates");
   if (damping && law.reads(&contact::Constants::tangential_damping)) {
     const double zeta = contact::kelvin_voigt_damping_ratio(ground.wanted_rebound);
     const double stiffness = ground.load / ground.wanted_depth;
     advise_constant(ground, present, Aim::friction, field_named("tangential_damping"),
                     2. * zeta * std::sqrt(stiffness * ground.mass),
-                    "a hook swings back as a linear spring rebounds");
+                    "the hook's spring is damped as a linear spring with that rebound");
   }
 }
 

@@ -87,7 +87,7 @@ std::string terminal_pivot(const Pivot& pivot, const TableStyle& style) {
   const auto add = [&](const std::string& what) { note += (note.empty() ? "" : "; ") + what; };
   if (pivot.several && pivot.seeds == 0) add("mean (least .. largest)");
   if (pivot.seeds > 0) add(interval_note(pivot));
-  if (pivot.predicted) add("behind / the closed form");
+  if (pivot.predicted) add("measured / closed form");
   if (!note.empty()) text += note_lines(note, style);
   text += print_cells(pivot, pivot_value, style);
   if (!has_differences(pivot)) return text;

@@ -2,7 +2,7 @@
 // wider than the screen, in light and in dark.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { createServer } from "node:http";
 import { tmpdir } from "node:os";
 import { extname, join, normalize } from "node:path";
@@ -94,6 +94,20 @@ test("equations, pictures and tables are drawn, and no page is wider than the sc
       assert.deepEqual(broken, [], path);
       if (path === "docs/theory.html") assert.ok(await page.locator(".katex").count() > 20, "equations");
     }
+});
+
+test("no page at all is wider than a telephone's screen", async (t) => {
+  if (missing) return t.skip(missing);
+  const { page } = await open(t, "index.html", { viewport: { width: 390, height: 900 } });
+  const pages = readdirSync(join(folder, "site"), { recursive: true }).filter((path) => path.endsWith(".html"));
+  assert.ok(pages.length > 100, `${pages.length} pages`);
+  const wide = [];
+  for (const path of pages) {
+    await page.goto(`${address}/${path}`, { waitUntil: "load" });
+    const beyond = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+    if (beyond > 0) wide.push(`${path}: ${beyond} px`);
+  }
+  assert.deepEqual(wide, []);
 });
 
 test("it is dark where the reader's screen is", async (t) => {

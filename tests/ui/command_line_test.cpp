@@ -150,6 +150,16 @@ TEST(CommandLine, WhatTheBoundHoldsAndLeavesOutIsTold) {
   EXPECT_NE(biped.out.find("; and 7 more\n"), std::string::npos) << biped.out;
 }
 
+TEST(CommandLine, AdviceOfAWishWarnsOfNoConstantThatTheWishItselfStates) {
+  const Workplace work;
+  const CommandResult plain = work.hookpoint("advise " + block);
+  const CommandResult wished =
+      work.hookpoint("advise " + block + " --penetration 0.5mm --rebound 0.2");
+  EXPECT_EQ(wished.status, 0) << wished.err;
+  EXPECT_EQ(wished.err, plain.err);
+  EXPECT_EQ(work.hookpoint("advise " + block + " --penetration=-1mm").status, 2);
+}
+
 TEST(CommandLine, ANonFiniteStateStopsTheRunWithTimeBodyAndAdvice) {
   const Workplace work;
   const CommandResult result =

@@ -17,21 +17,22 @@ constexpr double any = -std::numeric_limits<double>::infinity();
 const reference::MujocoRow default_row;
 
 const std::array parameters_of_mujoco{
-    Parameter{"solref",
-              "s, 1",
-              {{default_row.reference.begin(), default_row.reference.end()}, ""},
-              {},
-              "time constant and damping ratio of the error, relative to the mass: K = 1/(d t z)^2 "
-              "[1/s^2], B = 2/(d t) [1/s]. Both below 0: -K d^2 and -B d. Stiffness = K d^2 M/(1 - "
-              "d) [N/m], of a body of M kg",
-              any},
     Parameter{
-        "solimp",
-        "1, 1, m, 1, 1",
-        {{default_row.impedance.begin(), default_row.impedance.end()}, ""},
+        "solref",
+        "s, 1",
+        {{default_row.reference.begin(), default_row.reference.end()}, ""},
         {},
-        "impedance d: at the surface, from a depth on (the width), how it goes between. Force "
-        "= d of that of a rigid contact; R = (1 - d)/(d M) of acceleration per force"},
+        "time constant t and damping ratio z of the error, relative to the mass: K = 1/(dmax "
+        "t z)^2 [1/s^2], B = 2/(dmax t) [1/s], dmax the second number of solimp. Both below "
+        "0: -K dmax^2 and -B dmax. Stiffness = K d^2 M/(1 - d) [N/m] of a body of M kg, d the "
+        "impedance at its depth",
+        any},
+    Parameter{"solimp",
+              "1, 1, m, 1, 1",
+              {{default_row.impedance.begin(), default_row.impedance.end()}, ""},
+              {},
+              "impedance d at the surface; dmax from a depth on (the width); how it goes between. "
+              "Force = d of that of a rigid contact; R = (1 - d)/(d M) of acceleration per force"},
     Parameter{"friction",
               "1, m, m",
               {{1., 0.005, 0.0001}, ""},
