@@ -161,3 +161,102 @@ test("a file without windows has plots of its robot from the beginning on, and w
   await eventually("it is set", async () => (await read(page, "world.pendulum.arm.upper.torque")) === 5);
   assert.deepEqual(page.problems, []);
 });
+
+/// A block that falls from 50 m for as long as the test lasts, and two plots of it.
+const falling = block(20_000, `
+  Plot height { show = lab.block.position.z; }
+  Plot speed { window = 0.5 s; Trace { y = lab.block.velocity.z; label = "down"; } Trace { y = lab.block.velocity.x; label = "across"; } }
+`).replace("rest_on = ground;", "location = 0, 0, 5000;");
+const plotOf = (page, name) => page.getByRole("figure", { name, exact: true });
+const timeRead = async (plot) => Number((await plot.locator(".plot-at").textContent()).replace(" s", ""));
+/// Brings the pointer to a part of a plot's width.
+async function pointAt(page, plot, part) {
+  const box = await plot.locator(".u-over").boundingBox();
+  await page.mouse.move(box.x + part * box.width, box.y + box.height / 2);
+}
+/// The times at the left and right edges of a plot.
+async function stretchOf(page, plot) {
+  const edges = [];
+  for (const part of [0.002, 0.998]) {
+    await pointAt(page, plot, part);
+    edges.push(await timeRead(plot));
+  }
+  return edges;
+}
+async function openFalling(t) {
+  const { page } = await open(t, falling);
+  await page.setViewportSize({ width: 1000, height: 900 });
+  await eventually("time passes", async () => (await time(page)) > 2);
+  await pause(page);
+  await page.waitForTimeout(500);
+  return page;
+}
+
+test("plots share the time under the pointer and the stretch that they show", async (t) => {
+  const page = await openFalling(t);
+  const [height, speed] = [plotOf(page, "height"), plotOf(page, "speed")];
+  await pointAt(page, height, 0.25);
+  const read = await timeRead(height);
+  assert.ok(read > 0.3 && read < 1.5, `${read}`);
+  assert.equal(await timeRead(speed), read);
+  const down = Number((await speed.locator(".plot-trace .number").first().textContent()).replace("\u2212", "-"));
+  assert.ok(Math.abs(down + 9.81 * read) < 0.02, `${down} m/s at ${read} s`);
+
+  const [first, last] = await stretchOf(page, height);
+  await pointAt(page, height, 0.25);
+  await page.mouse.wheel(0, -500);
+  await eventually("the wheel has zoomed", async () => { const [begin, end] = await stretchOf(page, height); return end - begin < 0.6 * (last - first); });
+  await pointAt(page, height, 0.25);
+  assert.ok(Math.abs((await timeRead(height)) - read) < 0.02, "what is under the pointer stays there");
+  const [one, other] = [await stretchOf(page, height), await stretchOf(page, speed)];
+  one.forEach((edge, i) => assert.ok(Math.abs(edge - other[i]) < 0.02, `${one} and ${other}`));
+  await height.locator(".u-over").dblclick();
+  await eventually("all is shown again, of the other plot what its file says", async () => {
+    const [[begin, end], [from, to]] = [await stretchOf(page, height), await stretchOf(page, speed)];
+    return Math.abs(begin - first) < 0.02 && Math.abs(end - last) < 0.02 && Math.abs(to - from - 0.5) < 0.02;
+  });
+  assert.ok((await time(page)) > 2, "a double click goes nowhere");
+  assert.deepEqual(page.problems, []);
+});
+
+test("a click in a plot goes to that time", async (t) => {
+  const page = await openFalling(t);
+  const height = plotOf(page, "height");
+  await pointAt(page, height, 0.5);
+  const wanted = await timeRead(height);
+  const box = await height.locator(".u-over").boundingBox();
+  await page.mouse.click(box.x + 0.5 * box.width, box.y + box.height / 2);
+  await eventually("it is there", async () => Math.abs((await time(page)) - wanted) < 3e-3);
+  assert.deepEqual(page.problems, []);
+});
+
+test("an entry of the legend hides its line, and the scale is of what is left", async (t) => {
+  const page = await openFalling(t);
+  const speed = plotOf(page, "speed");
+  const down = speed.getByRole("button", { name: "down" });
+  const blue = () => speed.locator(".u-wrap canvas").evaluate((canvas) => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let count = 0;
+    for (let at = 0; at < data.length; at += 4) if (data[at] < 40 && Math.abs(data[at + 1] - 114) < 30 && Math.abs(data[at + 2] - 178) < 30 && data[at + 3] > 200) ++count;
+    return count;
+  });
+  await eventually("the line is there", async () => (await blue()) > 50);
+  await down.click();
+  assert.equal(await down.getAttribute("aria-pressed"), "false");
+  await eventually("the line is hidden", async () => (await blue()) === 0);
+  await down.click();
+  await eventually("the line is back", async () => (await blue()) > 50);
+});
+
+test("the bar marks what was changed and what touched", async (t) => {
+  // It falls 0.5 m, which takes 0.32 s.
+  const { page } = await open(t, block().replace("rest_on = ground;", "location = 0, 0, 0.55;"));
+  const marks = page.getByRole("img", { name: /^events: / });
+  await eventually("it has come to the ground", async () => /\b1 contact/.test(await marks.getAttribute("aria-label")));
+  await page.evaluate(() => window.hookpoint.set("lab.push.force.x", 0.5));
+  await eventually("the change is marked", async () => /\b1 change\b/.test(await marks.getAttribute("aria-label")));
+  const drawn = await marks.evaluate((canvas) => canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.some((each) => each > 0));
+  assert.ok(drawn);
+  await page.reload();
+  await eventually("a page that is opened later knows it", async () => /\b1 change\b/.test(await page.getByRole("img", { name: /^events: / }).getAttribute("aria-label")));
+});

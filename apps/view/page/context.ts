@@ -1,7 +1,9 @@
 // What every part of the page works with: the description, the line to the program, values to
 // watch and to set, and the present moment.
 import type { Connection } from "./connection.ts";
-import type { Description, PlotTrace, PlotWidget, Snapshot } from "./protocol.ts";
+import type { Changed, Description, PlotTrace, PlotWidget, Snapshot } from "./protocol.ts";
+import type { Seeker } from "./seeker.ts";
+import type { SharedTime } from "./shared_time.ts";
 import type { Setter, WatchedValues } from "./values.ts";
 
 /// A part of the page that has been made. What it holds goes with `dispose`.
@@ -23,6 +25,11 @@ export interface Context {
   /// Tells when the run went on from an earlier moment: nothing after it holds any more.
   onBranch(listener: (time: number) => void): () => void;
   onTheme(listener: () => void): () => void;
+  /// Tells what a user changed, in whatever browser.
+  onChanged(listener: (changed: Changed) => void): () => void;
+  /// The stretch that the plots show and the time under the pointer.
+  time: SharedTime;
+  seeker: Seeker;
   /// How far long work has come, from 0 to 1.
   onProgress(listener: (work: string, done: number) => void): () => void;
   /// Tells when the page has the run begin anew: what a person arranged stays arranged.

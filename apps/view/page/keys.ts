@@ -15,7 +15,8 @@ const list: [string, string][] = [
   ["wheel in a camera", "nearer or farther"],
   ["double click", "select a body; in a plot: back from zooming"],
   ["control and drag", "pull a body by a spring"],
-  ["drag in a plot", "zoom"],
+  ["drag or wheel in a plot", "zoom all plots over time"],
+  ["click in a plot", "go to that time"],
 ];
 
 export function listenForKeys(context: Context, actions: Actions, toggleSide: () => void): () => void {

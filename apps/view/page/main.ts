@@ -7,10 +7,12 @@ import { makeFilmPage } from "./film.ts";
 import { offerApi } from "./hookpoint_api.ts";
 import { Notices } from "./notices.ts";
 import { answerPictureRequest } from "./picture_request.ts";
-import { protocolVersion, type Description, type PlotTrace, type Snapshot, type Told } from "./protocol.ts";
+import { protocolVersion, type Changed, type Description, type PlotTrace, type Snapshot, type Told } from "./protocol.ts";
 import { readRecording, RecordedSocket } from "./recording.ts";
 import { makeRunPage } from "./run_page.ts";
+import { Seeker } from "./seeker.ts";
 import { Branches } from "./series.ts";
+import { SharedTime } from "./shared_time.ts";
 import { makeStudyPage, type StudyPage } from "./study.ts";
 import type { StudiesDescription } from "./study/protocol.ts";
 import { startTheme } from "./theme.ts";
@@ -24,6 +26,7 @@ document.body.append(host, notices.element);
 const snapshots = new Listeners<[Snapshot]>();
 const branchings = new Listeners<[number]>();
 const themes = new Listeners<[]>();
+const changes = new Listeners<[Changed]>();
 const progresses = new Listeners<[string, number]>();
 const qualities = new Listeners<[Quality]>();
 const exaggerations = new Listeners<[number]>();
@@ -55,6 +58,7 @@ const connection = new Connection(openSocket, {
 });
 const values = new WatchedValues(() => connection, (text) => notices.add("warning", text));
 const setter = new Setter(() => connection);
+const seeker = new Seeker(() => connection, (text) => notices.add("error", text));
 startTheme(() => themes.tell());
 offerApi(connection, () => context, () => studies !== null);
 
@@ -65,7 +69,7 @@ function hear(message: Told): void {
     case "notice": return notices.add(message.level, message.text);
     case "ended": return notices.setEnded(message.reason);
     case "working": return progresses.tell(message.of, message.done);
-    case "changed": return;
+    case "changed": return changes.tell(message);
     case "row":
     case "figure":
     case "progress":
@@ -135,6 +139,9 @@ function makeContext(description: Description): Context {
     onSnapshot: snapshots.add,
     onBranch: branchings.add,
     onTheme: themes.add,
+    onChanged: changes.add,
+    time: new SharedTime(),
+    seeker,
     onProgress: progresses.add,
     resets: new Listeners(),
     notice: (level, text) => notices.add(level, text),

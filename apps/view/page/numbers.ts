@@ -79,6 +79,17 @@ export function formatUnit(unit: string): string {
     .replace(/\^(-?[0-4])/g, (_, power: string) => [...power].map((each) => raised[each]).join(""));
 }
 
+const prefixes: [number, string][] = [[1e-3, "m"], [1e-6, "\u00b5"], [1e-9, "n"], [1e-12, "p"]];
+const leastPlain = 1e-2; // from here on a value has the unit as it is
+
+/// The unit in which values of this size are read without powers of ten: mm and um for metres. A value is divided by `factor`.
+export function engineering(size: number, unit: string): { factor: number; unit: string } {
+  const plain = { factor: 1, unit: formatUnit(unit) };
+  if (!(size > 0 && size < leastPlain) || !/^(m|s|N|J|W|Pa)(?![\^A-Za-z])/.test(unit)) return plain;
+  const [factor, prefix] = prefixes.find(([least]) => size >= least * (1 - 1e-9)) ?? prefixes[prefixes.length - 1];
+  return { factor, unit: prefix + plain.unit };
+}
+
 /// A speed as a factor of real time.
 export function formatSpeed(factor: number): string {
   if (factor === 0) return "as fast as possible";

@@ -2,6 +2,7 @@
 // what else concerns the whole run.
 import { attempt, type Context, type Part, type Quality } from "./context.ts";
 import { download, element, setText } from "./dom.ts";
+import { makeEventTicks } from "./event_ticks.ts";
 import { iconButton, setIcon } from "./icons.ts";
 import { decimalsOfTime, formatDecimals, formatSpeed } from "./numbers.ts";
 import type { Description, Snapshot } from "./protocol.ts";
@@ -111,30 +112,11 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
     }, timeAtEnd);
   }
 
-  // Seeking: one request at a time, the newest place next.
-  let seeking = false;
-  let wanted: number | null = null;
+  const ticks = makeEventTicks(context, scrubber);
   let held = false;
-  const seek = async (to: number) => {
-    wanted = to;
-    if (seeking) return;
-    seeking = true;
-    try {
-      while (wanted !== null) {
-        const next: number = wanted;
-        wanted = null;
-        await connection.request("seek", { time: next });
-      }
-    } catch (refused) {
-      wanted = null;
-      context.notice("error", (refused as Error).message);
-    } finally {
-      seeking = false;
-    }
-  };
   scrubber.addEventListener("pointerdown", () => (held = true));
   for (const end of ["pointerup", "pointercancel", "change"]) scrubber.addEventListener(end, () => (held = false));
-  scrubber.addEventListener("input", () => void seek(Number(scrubber.value)));
+  scrubber.addEventListener("input", () => context.seeker.seek(Number(scrubber.value)));
 
   const quality = element("select", { "aria-label": "quality of the picture", title: "quality of the picture" },
     ...(["low", "medium", "high"] as Quality[]).map((each) => element("option", { value: each, selected: each === context.quality }, each)));
@@ -148,7 +130,7 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
     element("span", { class: "title", title: `${description.world}: ${description.engine}, ${description.law}, ${description.integrator}` }, description.title),
     element("span", { class: "group", role: "group", "aria-label": "transport" }, reset, run, step),
     element("span", { class: "clock" }, time, element("span", { class: "unit" }, "s"), state),
-    scrubber,
+    ticks.element,
     work,
     element("span", { class: "group", role: "group", "aria-label": "speed" }, asked, reached, ...(movie || description.holds ? [ending] : [])),
     element("span", { class: "group tools", role: "group", "aria-label": "tools" },
@@ -173,15 +155,17 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
     setText(reached, snapshot.paused || snapshot.ended ? "" : `\u00d7 ${snapshot.speedReached.toPrecision(3)}`);
     const possible = snapshot.historyLast > snapshot.historyFirst;
     if (scrubber.disabled === possible) scrubber.disabled = !possible;
-    if (!held && !seeking) {
+    if (!held && !context.seeker.busy) {
       scrubber.min = String(snapshot.historyFirst);
       scrubber.max = String(Math.max(snapshot.historyLast, snapshot.past ? 0 : snapshot.time));
       scrubber.value = String(snapshot.time);
       scrubber.setAttribute("aria-valuetext", `${formatDecimals(snapshot.time, decimals)} s`);
     }
+    ticks.draw([Number(scrubber.min), Number(scrubber.max)]);
   });
   return { element: element_, actions, dispose: () => {
     window.clearTimeout(returning);
+    ticks.dispose();
     forget();
     forgetWork();
   } };

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { decimalsOfRange, decimalsOfTime, formatDecimals, formatMultiples, formatNumber, formatSpeed, formatUnit, parseNumber, spansDecades } from "../numbers.ts";
+import { decimalsOfRange, decimalsOfTime, engineering, formatDecimals, formatMultiples, formatNumber, formatSpeed, formatUnit, parseNumber, spansDecades } from "../numbers.ts";
 
 test("numbers keep their digits, so that they stay in their place", () => {
   const shown: [number, string][] = [
@@ -79,4 +79,18 @@ test("every tick is the number of its label", () => {
         });
         assert.equal(new Set(labels).size, ticks.length, labels.join(" "));
       }
+});
+
+test("small values are read in the prefix that fits, where the unit takes one", () => {
+  const read = (value: number, unit: string) => {
+    const found = engineering(Math.abs(value), unit);
+    return `${Number((value / found.factor).toPrecision(4))} ${found.unit}`.trim();
+  };
+  const shown: [number, string, string][] = [
+    [3.174e-5, "m", "31.74 \u00b5m"], [-1.2e-5, "m", "-12 \u00b5m"], [0.001283, "m", "1.283 mm"], [0.05, "m", "0.05 m"], [6.8e-12, "m", "6.8 pm"],
+    [4e-3, "m/s", "4 mm/s"], [2e-7, "N.m", "200 nN\u00b7m"], [1e-3, "N", "1 mN"], [0, "m", "0 m"], [5e-14, "m", "0.05 pm"],
+    [1e-4, "rad", "0.0001 rad"], [1e-4, "m^2", "0.0001 m\u00b2"], [1e-4, "kg", "0.0001 kg"], [1e-4, "min", "0.0001 min"], [1e-4, "", "0.0001"],
+  ];
+  for (const [value, unit, text] of shown) assert.equal(read(value, unit), text);
+  assert.equal(engineering(NaN, "m").factor, 1);
 });

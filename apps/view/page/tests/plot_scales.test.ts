@@ -51,7 +51,7 @@ test("trails become a tree by their parts", () => {
 });
 
 test("a scale of both signs has 0 and powers of ten, few of them", () => {
-  assert.deepEqual(decadesWithin(-2e-5, 3e-4, 1e-6).map(decadeName), ["\u22121e\u22125", "0", "1e\u22125", "1e\u22124"]);
+  assert.deepEqual(decadesWithin(-2e-5, 3e-4, 1e-6).map((tick) => decadeName(tick, "")), ["\u22121e\u22125", "0", "1e\u22125", "1e\u22124"]);
   for (const greatest of [1e-5, 5e-3, 20, 1e6]) {
     const ticks = decadesWithin(-greatest, greatest, 1e-6);
     assert.ok(ticks.length >= 3 && ticks.length <= 9 && ticks.includes(0), `${ticks}`);
@@ -59,5 +59,6 @@ test("a scale of both signs has 0 and powers of ten, few of them", () => {
   }
   const [least, greatest] = paddedByDecades([1e-5, 1e-3], 1e-6);
   assert.ok(least < 0 && least > -1e-6 && greatest > 1e-3 && greatest < 1e-2);
-  assert.deepEqual([1e-6, -1e-5, 0, 0.01, 10000, 1e6].map(decadeName), ["1e\u22126", "\u22121e\u22125", "0", "0.01", "10000", "1e6"]);
+  assert.deepEqual([1e-6, -1e-5, 0, 0.01, 10000, 1e6].map((tick) => decadeName(tick, "")), ["1e\u22126", "\u22121e\u22125", "0", "0.01", "10000", "1e6"]);
+  assert.deepEqual([1e-6, -1e-5, 1e-3, 0, 0.1, 1].map((tick) => decadeName(tick, "m")), ["1 \u00b5m", "\u221210 \u00b5m", "1 mm", "0", "0.1 m", "1 m"]);
 });

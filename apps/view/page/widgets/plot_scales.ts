@@ -1,6 +1,7 @@
 // What plots need besides uPlot: ranges that follow the data, numbers on axes, and lines that may
 // run back and forth.
 import uPlot from "uplot";
+import { engineering } from "../numbers.ts";
 import type { Range } from "../protocol.ts";
 
 /// Of the values of columns, where given only of times from `begin` to `end`; NaN are passed over.
@@ -41,11 +42,13 @@ export function decadesWithin(least: number, greatest: number, even: number): nu
   return ticks.filter((tick) => tick >= least && tick <= greatest).sort((a, b) => a - b);
 }
 
-export function decadeName(tick: number): string {
+/// A power of ten in its unit, with a prefix where it is small.
+export function decadeName(tick: number, inUnit: string): string {
   if (tick === 0) return "0";
-  const power = Math.round(Math.log10(Math.abs(tick)));
+  const { factor, unit } = engineering(Math.abs(tick), inUnit);
+  const power = Math.round(Math.log10(Math.abs(tick / factor)));
   const size = power < -3 || power > 4 ? `1e${power}` : String(10 ** power);
-  return ((tick < 0 ? "-" : "") + size).replaceAll("-", "\u2212");
+  return `${((tick < 0 ? "-" : "") + size).replaceAll("-", "\u2212")} ${unit}`.trimEnd();
 }
 
 /// The line of a phase plot: uPlot's own lines take it that x only rises.
