@@ -24,7 +24,7 @@ after(() => browser?.close());
 
 /// Pixels of the first camera that are other ones without its shapes, or what else a switch shows.
 async function pixelsOf(page, what) {
-  await page.evaluate(() => { document.querySelector("details.menu").open = true; });
+  await page.evaluate(() => { document.querySelector(".camera details.menu").open = true; });
   const box = page.getByLabel(what, { exact: true }).first();
   const frames = () => page.evaluate(() => Number(document.querySelector("canvas[data-trail]").dataset.frames));
   const look = async (shown) => {

@@ -188,3 +188,91 @@ test("from the program's start to the first picture", async (t) => {
   // Reported, not judged: 2 s where there is a graphics card and a processor to itself.
   t.diagnostic(`${seconds.toFixed(2)} s`);
 });
+
+/// A scene, and beside it plots for several screens.
+const dashboard = block(20_000, `
+  Valuator.Slider push { range = 0 N, 2 N; Wire TO lab.push.force.y; }
+`) + `
+Window curves {
+  width = 500;
+  ${["x", "y", "z", "t"].map((axis) => `Plot at_${axis} { height = 400; show = ${axis === "t" ? "lab.time" : `lab.block.position.${axis}`}; }`).join(" ")}
+}
+`;
+async function openDashboard(t) {
+  const folder = workFolder(t);
+  const served = await serve(t, ["view", experiment(folder, "dashboard.hook", dashboard), "--no-open"], folder);
+  const page = await openPage(browser, served.url, { viewport: { width: 1400, height: 800 } });
+  t.after(() => page.context().close());
+  return { page, folder, served };
+}
+const boxOf = (page, trail) => widget(page, trail).boundingBox();
+const near = (one, other, least = 3) => Math.abs(one - other) <= least;
+
+test("panels fill the width, and the scene stays in sight while plots scroll", async (t) => {
+  const { page } = await openDashboard(t);
+  const [camera, plot] = [await boxOf(page, "camera"), await boxOf(page, "curves.at_y")];
+  assert.ok(near(plot.x + plot.width, 1400, 30) && camera.x < 30, `${camera.x} to ${plot.x + plot.width}`);
+  assert.ok(camera.height > 500, `the camera is ${camera.height} px high`);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollHeight > innerHeight + 100));
+  await page.evaluate(() => scrollTo(0, document.documentElement.scrollHeight));
+  const scrolled = await boxOf(page, "camera");
+  assert.ok(near(scrolled.y, camera.y) && near(scrolled.height, camera.height));
+  assert.ok((await boxOf(page, "curves.at_t")).y < 800);
+  assert.deepEqual(page.problems, []);
+});
+
+test("what is dragged stays when the page is opened again, and a menu forgets it", async (t) => {
+  const { page } = await openDashboard(t);
+  const [camera, plot] = [await boxOf(page, "camera"), await boxOf(page, "curves.at_x")];
+  const edge = page.getByRole("separator", { name: "width of the scene" });
+  const { x, y, width } = await edge.boundingBox();
+  await page.mouse.move(x + width / 2, y + 200);
+  await page.mouse.down();
+  await page.mouse.move(x + width / 2 - 150, y + 200, { steps: 3 });
+  await page.mouse.up();
+  const height = widget(page, "curves.at_x").getByRole("separator", { name: "height" });
+  await height.focus();
+  for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowDown");
+  const arranged = async () => near((await boxOf(page, "camera")).width, camera.width - 150) && near((await boxOf(page, "curves.at_x")).height, plot.height + 80);
+  await eventually("it is as dragged", arranged);
+  await page.reload();
+  await drawn(page);
+  await eventually("it is so again", arranged);
+  await page.getByLabel("layout", { exact: true }).click();
+  await page.getByRole("button", { name: "as in the file" }).click();
+  await eventually("it is as in the file", async () => near((await boxOf(page, "camera")).width, camera.width) && near((await boxOf(page, "curves.at_x")).height, plot.height));
+  await page.getByRole("combobox", { name: "columns of plots" }).selectOption("2");
+  await eventually("two beside each other", async () => near((await boxOf(page, "curves.at_x")).y, (await boxOf(page, "curves.at_y")).y));
+});
+
+test("a layout is saved as a .hook file, which has it again in any browser", async (t) => {
+  const { page, folder } = await openDashboard(t);
+  const edge = page.getByRole("separator", { name: "width of the scene" });
+  await edge.focus();
+  for (let i = 0; i < 8; ++i) await page.keyboard.press("ArrowLeft");
+  await widget(page, "curves.at_y").getByRole("separator", { name: "height" }).focus();
+  for (let i = 0; i < 4; ++i) await page.keyboard.press("ArrowUp");
+  const [camera, plot] = [await boxOf(page, "camera"), await boxOf(page, "curves.at_y")];
+  await page.getByLabel("layout", { exact: true }).click();
+  const [saved] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "save as .hook" }).click()]);
+  await saved.saveAs(`${folder}/saved.hook`);
+  assert.match(readFileSync(`${folder}/saved.hook`, "utf8"), /height = 336;/);
+  const served = await serve(t, ["view", `${folder}/saved.hook`, "--no-open"], folder);
+  const other = await openPage(browser, served.url, { viewport: { width: 1400, height: 800 } });
+  t.after(() => other.context().close());
+  await eventually("it is the same", async () => near((await boxOf(other, "camera")).width, camera.width) && near((await boxOf(other, "curves.at_y")).height, plot.height), 20_000);
+});
+
+test("a double click on its title has a panel take the page, Escape gives it back", async (t) => {
+  const { page } = await openDashboard(t);
+  const before = await boxOf(page, "curves.at_y");
+  await widget(page, "curves.at_y").locator("figcaption .name").dblclick();
+  await eventually("it has the page", async () => { const box = await boxOf(page, "curves.at_y"); return box.x === 0 && box.width === 1400 && box.height > 700; });
+  const chart = await widget(page, "curves.at_y").locator(".u-over").boundingBox();
+  assert.ok(chart.height > 550, `the chart is ${chart.height} px high`);
+  await page.keyboard.press("Escape");
+  await eventually("it is back", async () => JSON.stringify(await boxOf(page, "curves.at_y")) === JSON.stringify(before));
+  await page.locator("figure.camera").getByRole("button", { name: "maximise" }).click();
+  await eventually("the camera has it", async () => near((await boxOf(page, "camera")).width, 1400));
+  assert.deepEqual(page.problems, []);
+});

@@ -1,6 +1,7 @@
 // What every part of the page works with: the description, the line to the program, values to
 // watch and to set, and the present moment.
 import type { Connection } from "./connection.ts";
+import type { LayoutStore } from "./layout.ts";
 import type { Changed, Description, PlotTrace, PlotWidget, Snapshot } from "./protocol.ts";
 import type { Seeker } from "./seeker.ts";
 import type { SharedTime } from "./shared_time.ts";
@@ -30,6 +31,7 @@ export interface Context {
   /// The stretch that the plots show and the time under the pointer.
   time: SharedTime;
   seeker: Seeker;
+  layout: LayoutStore;
   /// How far long work has come, from 0 to 1.
   onProgress(listener: (work: string, done: number) => void): () => void;
   /// Tells when the page has the run begin anew: what a person arranged stays arranged.

@@ -14,6 +14,7 @@ const list: [string, string][] = [
   ["drag in a camera", "turn it; arrow keys do the same"],
   ["wheel in a camera", "nearer or farther"],
   ["double click", "select a body; in a plot: back from zooming"],
+  ["double click on a title", "fill the page; Escape: back"],
   ["control and drag", "pull a body by a spring"],
   ["drag or wheel in a plot", "zoom all plots over time"],
   ["click in a plot", "go to that time"],

@@ -5,6 +5,7 @@ import { Listeners, type Context, type Part, type Quality } from "./context.ts";
 import { element } from "./dom.ts";
 import { makeFilmPage } from "./film.ts";
 import { offerApi } from "./hookpoint_api.ts";
+import { LayoutStore } from "./layout.ts";
 import { Notices } from "./notices.ts";
 import { answerPictureRequest } from "./picture_request.ts";
 import { protocolVersion, type Changed, type Description, type PlotTrace, type Snapshot, type Told } from "./protocol.ts";
@@ -142,6 +143,7 @@ function makeContext(description: Description): Context {
     onChanged: changes.add,
     time: new SharedTime(),
     seeker,
+    layout: new LayoutStore(`hookpoint.layout ${description.title}`, localStorage),
     onProgress: progresses.add,
     resets: new Listeners(),
     notice: (level, text) => notices.add(level, text),

@@ -5,12 +5,14 @@ import { Listeners, type Context, type Part } from "./context.ts";
 import { makeCreepPanel } from "./creep_panel.ts";
 import { element } from "./dom.ts";
 import { iconButton } from "./icons.ts";
+import { clampShare, hasCamera, shareOf } from "./layout.ts";
 import type { CameraWidget, PlotTrace } from "./protocol.ts";
+import { makeResizeHandle } from "./resize_handle.ts";
 import { makeSidePanel } from "./side_panel.ts";
 import { toggleTheme } from "./theme.ts";
 import { makeTransport } from "./transport.ts";
 import { makePlot } from "./widgets/plot.ts";
-import { hasCamera, makeWidget } from "./widgets/window.ts";
+import { makeWidget } from "./widgets/window.ts";
 
 /// A file that says nothing of windows is shown by one camera, whose place no port holds.
 export function ownCamera(context: Context): CameraWidget {
@@ -26,12 +28,24 @@ export function makeRunPage(context: Context, themeChanged: Listeners<[]>): Part
   const desk = element("main", { class: bare ? "desk bare" : "desk" });
   const parts: Part[] = [];
   // Where there are scenes and other things, scenes stay in sight while the others are scrolled.
-  const scenes = element("div", { class: "column scenes" }), others = element("div", { class: "column" });
+  const scenes = element("div", { class: "column scenes" }), others = element("div", { class: "column others" });
   const split = !bare && description.windows.some(hasCamera) && (description.subjects.length > 1 || !description.windows.every(hasCamera));
   if (split) {
     desk.classList.add("split");
-    desk.append(scenes, others);
+    const width = () => scenes.offsetWidth + others.offsetWidth;
+    desk.append(scenes, makeResizeHandle({
+      label: "width of the scene", along: "x", size: () => scenes.offsetWidth,
+      resize: (size) => context.layout.change({ share: clampShare(size / width()) }), restore: () => context.layout.change({ share: null }),
+    }), others);
   }
+  const arrange = () => {
+    const { share, columns } = context.layout.now;
+    if (split) desk.style.setProperty("--share", String(share ?? shareOf(description.windows, description.subjects.length > 1)));
+    desk.classList.toggle("in-columns", columns !== null);
+    desk.style.setProperty("--columns", String(columns ?? 1));
+  };
+  arrange();
+  const forgetLayout = context.layout.onChange(arrange);
   const add = (part: Part | null, scene = false) => {
     if (part === null) return;
     parts.push(part);
@@ -106,6 +120,7 @@ export function makeRunPage(context: Context, themeChanged: Listeners<[]>): Part
     element: element("div", { class: "page" }, transport.element, work, help),
     dispose: () => {
       forgetKeys();
+      forgetLayout();
       forgetSelected();
       side?.dispose();
       transport.dispose();

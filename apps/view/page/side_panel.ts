@@ -5,6 +5,7 @@ import { element } from "./dom.ts";
 import { makeFieldEditor } from "./field_editor.ts";
 import { iconButton } from "./icons.ts";
 import { makeInspector } from "./inspector.ts";
+import { makeResizeHandle } from "./resize_handle.ts";
 import { makeOverview } from "./overview.ts";
 import { makeTrailTree } from "./trail_tree.ts";
 
@@ -15,6 +16,7 @@ const tabs = {
   body: { name: "Body", make: makeInspector },
 };
 type Tab = keyof typeof tabs;
+const defaultWidth = 400, leastWidth = 280; // [CSS pixels]
 
 export function makeSidePanel(context: Context, close: () => void): Part & { show(tab: Tab): void } {
   const content = element("div", { class: "side-content", role: "tabpanel" });
@@ -39,13 +41,22 @@ export function makeSidePanel(context: Context, close: () => void): Part & { sho
   const forget = context.onSelected((body) => {
     if (body !== null) show("body");
   });
-  return {
-    element: element("aside", { class: "side", "aria-label": "values, parameters and the selected body" },
+  const aside: HTMLElement = element("aside", { class: "side", "aria-label": "values, parameters and the selected body" },
+      makeResizeHandle({
+        label: "width of the panel", along: "x", behind: true, size: () => aside.offsetWidth,
+        resize: (size) => context.layout.change({ side: Math.max(leastWidth, Math.min(size, innerWidth / 2)) }), restore: () => context.layout.change({ side: null }),
+      }),
       element("div", { class: "side-head" }, element("div", { role: "tablist" }, ...buttons.map((each) => each.button)), iconButton("close", "close (t)", close)),
-      content),
+      content);
+  const arrange = () => aside.style.setProperty("--side", `${context.layout.now.side ?? defaultWidth}px`);
+  arrange();
+  const forgetLayout = context.layout.onChange(arrange);
+  return {
+    element: aside,
     show,
     dispose: () => {
       forget();
+      forgetLayout();
       part?.dispose();
     },
   };

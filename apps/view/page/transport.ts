@@ -3,6 +3,7 @@
 import { attempt, type Context, type Part, type Quality } from "./context.ts";
 import { download, element, setText } from "./dom.ts";
 import { makeEventTicks } from "./event_ticks.ts";
+import { makeLayoutMenu } from "./layout_menu.ts";
 import { iconButton, setIcon } from "./icons.ts";
 import { decimalsOfTime, formatDecimals, formatSpeed } from "./numbers.ts";
 import type { Description, Snapshot } from "./protocol.ts";
@@ -137,10 +138,14 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
       quality,
       iconButton("picture", "picture (p)", actions.picture),
       ...(movie ? [] : [save]),
+      makeLayoutMenu(context),
       iconButton("tree", "all values, parameters and the selected body (t)", chrome.openSide),
       iconButton("theme", "light or dark", chrome.theme),
       iconButton("help", "keys (?)", chrome.help)));
 
+  // Parts that stay in sight stand below the bar, however many rows it has.
+  const below = new ResizeObserver(() => document.documentElement.style.setProperty("--bar", `${element_.offsetHeight}px`));
+  below.observe(element_);
   const forgetWork = context.onProgress((name, done) => setText(work, done < 1 ? `${name}: ${Math.floor(100 * done)} %` : ""));
   const forget = context.onSnapshot((snapshot) => {
     const end = cameToEnd(description, shown, snapshot);
@@ -166,6 +171,7 @@ export function makeTransport(context: Context, chrome: Chrome): Part & { action
   return { element: element_, actions, dispose: () => {
     window.clearTimeout(returning);
     ticks.dispose();
+    below.disconnect();
     forget();
     forgetWork();
   } };

@@ -3,6 +3,7 @@
 import { attempt, type Context, type Part } from "../context.ts";
 import { download, element, freshId } from "../dom.ts";
 import { icon, iconButton } from "../icons.ts";
+import { makeMaximisable } from "../maximise.ts";
 import type { CameraWidget } from "../protocol.ts";
 import { CameraView, type Followed } from "../scene/view.ts";
 import { switches, type Switch } from "../scene/switches.ts";
@@ -200,8 +201,9 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
   const frame = element("figure", { class: "camera" },
     element("figcaption", {}, element("span", { class: "name" }, widget.label), take, menu), host);
   const [width, height] = [widget.width ?? defaultWidth, widget.height ?? defaultHeight];
-  frame.style.flexBasis = `${width}px`;
-  host.style.aspectRatio = `${width} / ${height}`;
+  frame.style.setProperty("--width", `${width}px`);
+  host.style.setProperty("--ratio", `${width} / ${height}`);
+  makeMaximisable(frame, frame.querySelector("figcaption")!);
   return { element: frame, dispose, view };
 }
 

@@ -5,7 +5,9 @@ import type { Context, Part } from "../context.ts";
 import { copyText, element, setText, styleValue } from "../dom.ts";
 import { iconButton } from "../icons.ts";
 import { engineering, formatMultiples, formatNumber, formatUnit } from "../numbers.ts";
+import { makeMaximisable } from "../maximise.ts";
 import type { PlotTrace, PlotWidget, Range } from "../protocol.ts";
+import { makeHeightResizable } from "../resizable_height.ts";
 import { csvOf, instantAt } from "../series.ts";
 import { TraceFeed } from "../trace_feed.ts";
 import { makeLegendEntry, type LegendEntry } from "./plot_legend.ts";
@@ -115,7 +117,7 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
     const ink = () => colour ?? styleValue("--quiet");
     return {
       scale, side, label: scale === "x" ? (phase ? xUnit : "time [s]") : () => (look === undefined ? unitOf(scale).unit : ""), labelSize: 16, labelGap: 0, labelFont: "11px system-ui, sans-serif", font: "11px system-ui, sans-serif",
-      size: scale === "x" ? 26 : 54, space: scale === "x" ? 50 : 20, gap: 3, stroke: ink,
+      size: scale === "x" ? 26 : 54, space: scale === "x" ? 50 : (_: uPlot, _axis: number, _least: number, _greatest: number, length: number) => Math.max(20, length / 7), gap: 3, stroke: ink,
       grid: { show: side !== 1, stroke: () => styleValue("--rule"), width: 1 },
       ticks: { show: true, size: 4, stroke: () => styleValue("--rule"), width: 1 },
       ...(look === undefined || scale === "x"
@@ -277,7 +279,7 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
   });
   const frame = element("figure", { class: "plot", "data-trail": widget.trail, "aria-label": widget.label },
     element("figcaption", {}, element("span", { class: "name" }, widget.label), readout, copy), host, legend);
-  host.style.height = `${widget.height ?? defaultHeight}px`;
+  makeMaximisable(frame, frame.querySelector("figcaption")!);
   if (widget.width) frame.style.width = `${widget.width}px`;
 
   let asked = 0;
@@ -297,6 +299,7 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
   });
   resize.observe(host);
   const forget = [
+    makeHeightResizable(context, frame, host, widget.trail, widget.height ?? defaultHeight),
     ...(phase ? [] : [wheelZooms(chart, context, { shown: rangeOfTime, whole: wholeTime })]),
     context.onTheme(() => chart.redraw(false, true)),
     context.onSnapshot((snapshot) => {

@@ -2,7 +2,9 @@
 import type { Context, Part } from "../context.ts";
 import { element, styleValue } from "../dom.ts";
 import { formatMultiples, formatUnit } from "../numbers.ts";
+import { makeMaximisable } from "../maximise.ts";
 import type { Plot3DWidget, Range } from "../protocol.ts";
+import { makeHeightResizable } from "../resizable_height.ts";
 import { TraceFeed } from "../trace_feed.ts";
 import { traceColours } from "./plot.ts";
 import { padded, rangeOf } from "./plot_scales.ts";
@@ -22,7 +24,7 @@ export function makePlot3D(context: Context, widget: Plot3DWidget): Part {
   }));
   const frame = element("figure", { class: "plot", "data-trail": widget.trail, "aria-label": widget.label },
     element("figcaption", {}, element("span", { class: "name" }, widget.label)), canvas, legend);
-  canvas.style.height = `${widget.height ?? defaultHeight}px`;
+  makeMaximisable(frame, frame.querySelector("figcaption")!);
   if (widget.width) frame.style.width = `${widget.width}px`;
 
   let stale = true;
@@ -149,6 +151,7 @@ export function makePlot3D(context: Context, widget: Plot3DWidget): Part {
   const resize = new ResizeObserver(() => (stale = true));
   resize.observe(canvas);
   const forget = [
+    makeHeightResizable(context, frame, canvas, widget.trail, widget.height ?? defaultHeight),
     context.onTheme(() => (stale = true)),
     context.onSnapshot(() => {
       if (stale) draw();

@@ -2,6 +2,7 @@
 // plots and frames beside each other as far as there is room.
 import type { Context, Part } from "../context.ts";
 import { element } from "../dom.ts";
+import { hasCamera, hasPlot } from "../layout.ts";
 import type { Widget, WindowWidget } from "../protocol.ts";
 import { makeButton } from "./button.ts";
 import { makeCamera } from "./camera.ts";
@@ -50,24 +51,26 @@ function makePart(context: Context, widget: Widget): Part | null {
 }
 
 function makeWindow(context: Context, widget: WindowWidget): Part {
-  const parts = widget.children.map((child) => makeWidget(context, child)).filter((part) => part !== null);
+  const parts: Part[] = [];
+  // Cameras, plots and controls that follow each other belong together: where there is room, the first two take it.
+  const runs: HTMLElement[] = [];
+  for (const child of widget.children) {
+    const part = makeWidget(context, child);
+    if (part === null) continue;
+    parts.push(part);
+    const kind = hasCamera(child) ? "cameras" : hasPlot(child) ? "plots" : "controls";
+    if (!runs.at(-1)?.classList.contains(kind)) runs.push(element("div", { class: `run ${kind}` }));
+    runs.at(-1)!.append(part.element);
+  }
   const frame = element("section", { class: "window", role: "group", "data-trail": widget.trail, "aria-label": widget.label || widget.trail },
     ...(widget.label === "" ? [] : [element("h2", {}, widget.label)]),
-    element("div", { class: "window-body" }, ...parts.map((part) => part.element)));
+    element("div", { class: "window-body" }, ...runs));
   // Sizes of the file are least sizes: what there is more of a page, cameras and plots take rather than controls.
-  frame.classList.add(hasCamera(widget) ? "with-camera" : widget.children.some(isWide) ? "wide" : "narrow");
-  if (widget.width) frame.style.flexBasis = `${widget.width}px`;
+  frame.classList.add(hasCamera(widget) ? "with-camera" : hasPlot(widget) ? "wide" : "narrow");
+  if (widget.width) frame.style.setProperty("--width", `${widget.width}px`);
   // As high as the file says, or higher where what it holds would not fit.
-  if (widget.height) frame.style.minHeight = `${widget.height}px`;
+  if (widget.height) frame.style.setProperty("--height", `${widget.height}px`);
   return { element: frame, dispose: () => parts.forEach((part) => part.dispose()) };
-}
-
-export function hasCamera(widget: Widget): boolean {
-  return widget.type === "Window.grob" || (widget.type === "Window" && widget.children.some(hasCamera));
-}
-
-function isWide(widget: Widget): boolean {
-  return widget.type === "Plot" || widget.type === "Plot.3D" || (widget.type === "Window" && widget.children.some(isWide));
 }
 
 /// Plots that are laid over others, by the trail of the one below, where that one is in the file.
