@@ -58,6 +58,8 @@ export interface Context {
   plot(trace: PlotTrace): void;
   /// Every camera's picture, by its trail.
   pictures: Map<string, () => Promise<Blob>>;
+  /// Of every camera, the largest exaggeration at which all bodies are in its picture, by its trail.
+  fits: Map<string, () => number>;
   /// What parts keep when the page is made anew for the same file: by trail.
   kept: Map<string, unknown>;
 }

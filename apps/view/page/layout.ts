@@ -11,7 +11,7 @@ export interface Layout {
 
 export const leastHeight = 60;
 export const mostColumns = 3;
-const sceneWidth = 480, plotsWidth = 560, controlsWidth = 380; // where the file gives none [CSS pixels]
+const sceneWidth = 480, tableWidth = 720, plotsWidth = 560, controlsWidth = 380; // where the file gives none [CSS pixels]
 const leastShare = 0.25, mostShare = 0.75;
 
 const positive = (value: unknown): number | null => (typeof value === "number" && value > 0 && value < Infinity ? value : null);
@@ -89,14 +89,15 @@ function widthOfScene(widget: Widget): number {
 }
 
 /// The share of the page's width that scenes take beside the others: widths of the file count in proportion.
-export function shareOf(windows: Widget[], plots: boolean): number {
+/// `subjects`: a table of subjects stands among the others.
+export function shareOf(windows: Widget[], subjects: boolean): number {
   const across = widthOfScene(windows.find(hasCamera)!);
-  return clampShare(across / (across + widthBeside(windows, plots)));
+  return clampShare(across / (across + widthBeside(windows, subjects)));
 }
 
-function widthBeside(windows: Widget[], plots: boolean): number {
+function widthBeside(windows: Widget[], subjects: boolean): number {
   const others = windows.filter((each) => !hasCamera(each));
-  return others.find((each) => each.width)?.width ?? (plots || others.some(hasPlot) ? plotsWidth : controlsWidth);
+  return others.find((each) => each.width)?.width ?? (subjects ? tableWidth : others.some(hasPlot) ? plotsWidth : controlsWidth);
 }
 
 /// Fields of an object without a name cannot be set.
@@ -109,11 +110,11 @@ function camerasOf(widget: Widget): Widget[] {
 }
 
 /// The sizes that give this layout when they stand in the file.
-export function sizesFor(layout: Layout, windows: Widget[], plots: boolean): { trail: string; field: "width" | "height"; pixels: number }[] {
+export function sizesFor(layout: Layout, windows: Widget[], subjects: boolean): { trail: string; field: "width" | "height"; pixels: number }[] {
   const sizes: { trail: string; field: "width" | "height"; pixels: number }[] = [];
   const scene = windows.find(hasCamera);
   if (layout.share !== null && scene !== undefined) {
-    const wider = (widthBeside(windows, plots) * layout.share) / (1 - layout.share) - widthOfScene(scene);
+    const wider = (widthBeside(windows, subjects) * layout.share) / (1 - layout.share) - widthOfScene(scene);
     // A camera's width counts only in a window without one.
     const sized = isNamed(scene) ? scene : scene.width ? undefined : camerasOf(scene).find(isNamed);
     if (sized !== undefined) sizes.push({ trail: sized.trail, field: "width", pixels: Math.max(1, Math.round(widthOfScene(sized) + wider)) });

@@ -176,6 +176,7 @@ function makeContext(description: Description): Context {
     overlays: overlaysOf(description.windows),
     plot: (_trace: PlotTrace) => {},
     pictures: new Map(),
+    fits: new Map(),
   };
   return made;
 }

@@ -2,6 +2,7 @@
 import { Vector3 } from "three";
 import { type CameraValues, cameraAxes } from "./camera.ts";
 import { axisColours, css, depthColour, mix, type Palette, tileColour } from "./colours.ts";
+import type { EdgePlace } from "./fitting.ts";
 
 export interface Label {
   x: number;
@@ -16,6 +17,12 @@ export interface Legends {
   depth: number | null; // deepest of the colour bar [m]
   hooks: number | null; // factor
   exaggeration: { factor: number; alongGround: boolean } | null;
+}
+
+/// Something that has left the picture: an arrow at its edge.
+export interface Gone extends EdgePlace {
+  colour: string;
+  text: string;
 }
 
 const fontSize = 11;
@@ -63,7 +70,7 @@ export class Overlay {
   }
 
   draw(
-    to: CanvasRenderingContext2D, width: number, height: number, scale: number, camera: CameraValues, legends: Legends, labels: Label[],
+    to: CanvasRenderingContext2D, width: number, height: number, scale: number, camera: CameraValues, legends: Legends, labels: Label[], gone: Gone[],
   ): void {
     to.save();
     to.scale(scale, scale);
@@ -112,9 +119,30 @@ export class Overlay {
       to.font = `${label.strong ? "600 " : ""}${fontSize}px ${this.palette.typeFace}`;
       this.text(to, label.text, label.x, label.y, ink);
     }
+    for (const each of gone) this.pointer(to, each, width);
     to.restore();
   }
 
+  private pointer(to: CanvasRenderingContext2D, { x, y, angle, colour, text }: Gone, width: number): void {
+    to.save();
+    to.translate(x, y);
+    to.rotate(angle);
+    to.beginPath();
+    to.moveTo(10, 0);
+    to.lineTo(-6, -7);
+    to.lineTo(-6, 7);
+    to.closePath();
+    to.fillStyle = colour;
+    to.strokeStyle = css(this.palette.ink);
+    to.lineWidth = 1;
+    to.fill();
+    to.stroke();
+    to.restore();
+    // The text stands on the inner side.
+    to.textAlign = x > width / 2 ? "right" : "left";
+    this.text(to, text, x + (x > width / 2 ? -14 : 14), y, css(this.palette.ink));
+    to.textAlign = "left";
+  }
   private arrow(to: CanvasRenderingContext2D, x: number, y: number, length: number, colour: string): void {
     to.strokeStyle = to.fillStyle = colour;
     to.lineWidth = 1.5;

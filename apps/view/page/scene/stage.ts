@@ -2,6 +2,7 @@
 import { Matrix4, Vector3 } from "three";
 import type { Body, Description, Snapshot } from "../protocol.ts";
 import { exaggeratePose, magnifyDisplacement } from "./exaggeration.ts";
+import type { Mover } from "./fitting.ts";
 import { placeMatrix } from "./robots.ts";
 import type { Ground } from "./terrain.ts";
 import { trianglesOf } from "./shapes.ts";
@@ -24,6 +25,7 @@ export class Stage {
   fitting = 1; // radius of a ball there that a picture should hold: chains that swing, and some of the ground [m]
   readonly weight: number; // of the heaviest robot [N]
   private readonly starts: Float64Array[];
+  private readonly reaches: number[]; // of each body, from its joint [m]
   private started = false;
   private told = false; // whether the description has the start poses
   private readonly normals: Vector3[] = []; // of the ground under each body's robot
@@ -37,6 +39,7 @@ export class Stage {
     this.drawn = description.subjects.map(() => new Float64Array(numbers));
     this.starts = description.subjects.map(() => new Float64Array(numbers));
     this.visible = description.subjects.map(() => true);
+    this.reaches = bodies.map(reachOf);
     const masses = new Map<number, number>();
     for (const body of bodies) masses.set(body.robot, (masses.get(body.robot) ?? 0) + body.mass);
     const starts = bodies.map((body) => body.start);
@@ -143,6 +146,32 @@ export class Stage {
       this.start(snapshot);
     }
     this.snapshot = snapshot;
+  }
+  /// Bodies of the robots of what is visible, as an exaggeration moves them; their places are from `origin`, which moves by `carried`.
+  movers(origin: Vector3, carried: Vector3): Mover[] {
+    const { bodies } = this.description.scene;
+    const movers: Mover[] = [];
+    this.snapshot?.subjects.forEach((subject, k) => {
+      if (!this.visible[k] || !subject.fine) return;
+      bodies.forEach((body, i) => {
+        if (body.robot < 0) return;
+        const moved = this.displacement(k, i, new Vector3());
+        const start = new Vector3(...this.starts[k].subarray(7 * i, 7 * i + 3)).sub(origin);
+        const across = this.acrossGround(i, moved);
+        movers.push({ start: start.add(across), moved: moved.sub(across).sub(carried), radius: this.reaches[i] });
+      });
+    });
+    return movers;
+  }
+  /// The part of a displacement that is not exaggerated.
+  private acrossGround(body: number, displacement: Vector3): Vector3 {
+    const normal = this.normal(body);
+    return normal === null ? new Vector3() : normal.clone().multiplyScalar(normal.dot(displacement));
+  }
+  /// The displacement of a body that an exaggeration magnifies.
+  magnified(subject: number, body: number): Vector3 {
+    const moved = this.displacement(subject, body, new Vector3());
+    return moved.sub(this.acrossGround(body, moved));
   }
   private normal(body: number): Vector3 | null {
     return this.alongGround ? this.normals[body] : null;

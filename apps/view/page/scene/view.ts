@@ -1,13 +1,14 @@
 // One camera's picture of the world: a canvas in the page, the scene behind it, and what mouse and keys do to both.
-import { Color, DirectionalLight, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3 } from "three";
+import { Color, DirectionalLight, PerspectiveCamera, Quaternion, Raycaster, Scene, Vector2, Vector3 } from "three";
 import type { Description, Snapshot } from "../protocol.ts";
 import { type CameraValues, cameraAxes, defaultCamera, fittingDistance, halfHeight, pixelsPerMetre, placeCamera } from "./camera.ts";
-import { type Palette, readPalette } from "./colours.ts";
+import { css, type Palette, readPalette } from "./colours.ts";
 import { Companion, firstMobileBase } from "./companion.ts";
 import { ForceArrows, Hooks, Penetration } from "./contacts.ts";
 import { Decorations } from "./decorations.ts";
 import { figured } from "./figure.ts";
-import { type Label, type Legends, Overlay, shortNumber } from "./overlay.ts";
+import { edgePlace, largestExaggeration, sidesOf } from "./fitting.ts";
+import { type Gone, type Label, type Legends, lengthText, Overlay, shortNumber } from "./overlay.ts";
 import { Light, sunward } from "./matte.ts";
 import { Painter, type Quality } from "./painter.ts";
 import { keysHelp, Pointer } from "./pointer.ts";
@@ -36,6 +37,8 @@ export interface CameraOptions {
 
 /// A camera that the user just moved is not moved back by an older value of its ports; the newest is taken after this.
 const settlingTime = 400; // [ms]
+const greatestExaggeration = 1e6;
+const edgeMargin = 16; // of an arrow's tip [CSS pixels]
 
 export class CameraView {
   readonly canvas: HTMLCanvasElement;
@@ -225,7 +228,7 @@ export class CameraView {
     return this.stage.exaggeration;
   }
   set exaggeration(factor: number) {
-    this.stage.exaggeration = Math.min(Math.max(factor, 1), 1e6);
+    this.stage.exaggeration = Math.min(Math.max(factor, 1), greatestExaggeration);
     this.newMeasure();
   }
   /// Whether only displacements along the ground are exaggerated, as at first, or all of them.
@@ -288,6 +291,16 @@ export class CameraView {
     return fittingDistance(this.stage.fitting, this.values.zoom);
   }
 
+  /// The largest exaggeration at which all bodies are in the picture, where the camera stands now.
+  get fittingExaggeration(): number {
+    if (!this.stage.snapshot || this.height === 0) return 1;
+    const aspect = this.width / this.height;
+    this.look(aspect);
+    const carried = typeof this.follow === "number" ? this.stage.magnified(0, this.follow) : new Vector3();
+    const origin = this.target.clone().addScaledVector(carried, -this.stage.exaggeration);
+    return largestExaggeration(sidesOf(this.values, aspect), this.stage.movers(origin, carried), greatestExaggeration);
+  }
+
   // ---- drawing ----
 
   private changed(): void {
@@ -330,6 +343,7 @@ export class CameraView {
     if (!this.painter || this.painter.lost || this.width === 0 || this.height === 0) return;
     this.paintTo(this.painter, this.context, this.width, this.height, this.ratio());
     this.canvas.dataset.frames = String(++this.frames);
+    this.canvas.dataset.gone = this.gone(this.width, this.height).map((each) => each.text).join(", ");
   }
   /// Paints a picture of width x height CSS pixels into a canvas that has `scale` pixels to each.
   private paintTo(painter: Painter, context: CanvasRenderingContext2D, width: number, height: number, scale: number): void {
@@ -339,7 +353,7 @@ export class CameraView {
     this.sizeLayers(across, down, scale);
     painter.paint(this.scene, this.camera, context, across, down);
     this.writeLabels(width, height);
-    this.overlay.draw(context, width, height, scale, this.values, this.legends(width, height), this.labels);
+    this.overlay.draw(context, width, height, scale, this.values, this.legends(width, height), this.labels, this.gone(width, height));
   }
   private look(aspect: number): void {
     const { stage } = this;
@@ -407,6 +421,22 @@ export class CameraView {
       const force = this.pullForce ?? this.description.pull.stiffness * this.spring.stretch(this.stage);
       write(place.copy(this.spring.target), `${shortNumber(force)} N`, true);
     }
+  }
+  /// Of each robot or subject that has left the picture, where it is and how far from its start.
+  private gone(width: number, height: number): Gone[] {
+    const { stage, description } = this;
+    const many = description.subjects.length > 1;
+    if (!stage.snapshot || this.mobile < 0) return [];
+    return description.subjects.flatMap((subject, k) => {
+      if (!stage.visible[k] || !stage.snapshot!.subjects[k].fine) return [];
+      stage.fromBody(k, this.mobile, place.fromArray(description.scene.bodies[this.mobile].center_of_mass));
+      const behind = axisBack.copy(place).sub(this.camera.position).applyQuaternion(pictureTurn.copy(this.camera.quaternion).invert()).z > 0;
+      place.project(this.camera);
+      const at = edgePlace(place.x, place.y, behind, width, height, edgeMargin);
+      if (at === null || !Number.isFinite(at.x + at.y)) return [];
+      const name = many ? subject.name : description.scene.bodies[this.mobile].trail.split(".").at(-2) ?? "";
+      return [{ ...at, colour: many ? subject.colour : css(this.palette.ink), text: `${name} ${lengthText(stage.displacement(k, this.mobile, place).length())}` }];
+    });
   }
   private legends(width: number, height: number): Legends {
     const { subjects, scene } = this.description;
@@ -533,4 +563,5 @@ export class CameraView {
 }
 
 const [place, axisRight, axisUp, axisBack] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];
+const pictureTurn = new Quaternion();
 const pixel = new Vector2();

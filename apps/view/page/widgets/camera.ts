@@ -169,11 +169,14 @@ export function makeCamera(context: Context, widget: CameraWidget, fill = false)
   view.pulls = !movie;
   if (!movie) forget.push(wirePull(context, view));
   const picture = () => view.picture();
+  const fit = () => view.fittingExaggeration;
   context.pictures.set(widget.trail, picture);
+  context.fits.set(widget.trail, fit);
 
   const dispose = () => {
     forget.forEach((each) => each());
     if (context.pictures.get(widget.trail) === picture) context.pictures.delete(widget.trail);
+    if (context.fits.get(widget.trail) === fit) context.fits.delete(widget.trail);
     view.dispose();
   };
   if (fill) return { element: host, dispose, view };
