@@ -276,3 +276,28 @@ test("a double click on its title has a panel take the page, Escape gives it bac
   await eventually("the camera has it", async () => near((await boxOf(page, "camera")).width, 1400));
   assert.deepEqual(page.problems, []);
 });
+
+test("a plot is laid over the camera, stays there when the page is opened again, and goes back", async (t) => {
+  const { page } = await openDashboard(t);
+  const inside = async () => {
+    const [camera, plot] = [await boxOf(page, "camera"), await boxOf(page, "curves.at_x")];
+    return plot.x > camera.x && plot.y > camera.y && plot.x + plot.width <= camera.x + camera.width && plot.y + plot.height <= camera.y + camera.height;
+  };
+  const button = () => widget(page, "curves.at_x").getByRole("button", { name: "lay over the camera, or back" });
+  await button().click();
+  await eventually("it lies there", inside);
+  await page.reload();
+  await drawn(page);
+  await eventually("it lies there again", inside);
+  // The camera takes what is beside it.
+  const turn = await read(page, "camera.euler1");
+  const camera = await boxOf(page, "camera");
+  await page.mouse.move(camera.x + 30, camera.y + 30);
+  await page.mouse.down();
+  await page.mouse.move(camera.x + 90, camera.y + 30, { steps: 3 });
+  await page.mouse.up();
+  await eventually("it turned", async () => (await read(page, "camera.euler1")) !== turn);
+  await button().click();
+  await eventually("it is back, before the others", async () => !(await inside()) && (await boxOf(page, "curves.at_x")).y <= (await boxOf(page, "curves.at_y")).y);
+  assert.deepEqual(page.problems, []);
+});

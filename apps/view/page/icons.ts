@@ -12,6 +12,7 @@ const lines = {
   theme: "M8 2a6 6 0 1 0 .01 0M8 2v12M8 5.5h4.5M8 8h6M8 10.5h5",
   help: "M8 2a6 6 0 1 0 .01 0M6.2 6.5a1.8 1.8 0 1 1 2.6 1.6q-.8.4-.8 1.4M8 11.3v.4",
   more: "M2 4.5h12M2 8h12M2 11.5h12",
+  over: "M2 3h12v10H2zM7.5 8h5v3.5h-5z",
   layout: "M2.5 3h11v10h-11zM9 3v10M9 8h4.5",
   maximise: "M9.5 2.5h4v4M6.5 13.5h-4v-4M13.5 2.5L9 7M2.5 13.5L7 9",
   restore: "M13.5 6.5h-4v-4M2.5 9.5h4v4M9.5 6.5l4-4M6.5 9.5l-4 4",

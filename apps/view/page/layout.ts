@@ -7,6 +7,7 @@ export interface Layout {
   side: number | null; // width of the panel at the side [CSS pixels]
   columns: number | null; // of plots; null: as many as have room
   heights: Record<string, number>; // of plots, by trail [CSS pixels]
+  over: string[]; // trails of plots that lie over the camera
 }
 
 export const leastHeight = 60;
@@ -28,7 +29,7 @@ export function parseLayout(text: string | null): Layout {
   } catch {
     // Of another program of the same address.
   }
-  const { share, side, columns, heights } = typeof read === "object" && read !== null ? read : {};
+  const { share, side, columns, heights, over } = typeof read === "object" && read !== null ? read : {};
   const known = positive(share);
   const count = positive(columns);
   return {
@@ -37,6 +38,7 @@ export function parseLayout(text: string | null): Layout {
     columns: count === null ? null : Math.min(mostColumns, Math.round(count)),
     heights: Object.fromEntries(Object.entries(typeof heights === "object" && heights !== null ? heights : {})
       .flatMap(([trail, height]) => (positive(height) === null ? [] : [[trail, Math.max(leastHeight, height as number)]]))),
+    over: Array.isArray(over) ? over.filter((trail) => typeof trail === "string") : [],
   };
 }
 

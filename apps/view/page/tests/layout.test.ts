@@ -10,10 +10,10 @@ const slider = { type: "Valuator.Slider", trail: "s", label: "" } as unknown as 
 const nothing = parseLayout(null);
 
 test("what storage holds is read as far as it makes sense", () => {
-  assert.deepEqual(nothing, { share: null, side: null, columns: null, heights: {} });
+  assert.deepEqual(nothing, { share: null, side: null, columns: null, heights: {}, over: [] });
   for (const text of ["", "{", "[]", "7", '{"share":-1,"side":"wide","columns":0,"heights":[]}']) assert.deepEqual(parseLayout(text), nothing, text);
-  assert.deepEqual(parseLayout('{"share":0.99,"side":500,"columns":9,"heights":{"a":300,"b":-1,"c":1}}'),
-    { share: 0.75, side: 500, columns: 3, heights: { a: 300, c: 60 } });
+  assert.deepEqual(parseLayout('{"share":0.99,"side":500,"columns":9,"heights":{"a":300,"b":-1,"c":1},"over":["a",3]}'),
+    { share: 0.75, side: 500, columns: 3, heights: { a: 300, c: 60 }, over: ["a"] });
 });
 
 test("a layout is stored, told and forgotten; without storage it holds as long as the page", () => {

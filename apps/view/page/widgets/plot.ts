@@ -6,6 +6,7 @@ import { copyText, element, setText, styleValue } from "../dom.ts";
 import { iconButton } from "../icons.ts";
 import { engineering, formatMultiples, formatNumber, formatUnit } from "../numbers.ts";
 import { makeMaximisable } from "../maximise.ts";
+import { makeLayable } from "../over_camera.ts";
 import type { PlotTrace, PlotWidget, Range } from "../protocol.ts";
 import { makeHeightResizable } from "../resizable_height.ts";
 import { csvOf, instantAt } from "../series.ts";
@@ -33,6 +34,7 @@ interface Drawn {
   trace: PlotTrace;
   colour: string;
   dash: number[] | undefined;
+  key: string; // under which it is hidden
   scale: string;
   entry: LegendEntry | null; // in the legend
 }
@@ -48,7 +50,7 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
   const legend = element("div", { class: "plot-legend" });
   const drawn: Drawn[] = [];
   const keptHidden = `${widget.trail} hidden`;
-  const hidden = (context.kept.get(keptHidden) as Set<string> | undefined) ?? new Set<string>(); // colours of lines
+  const hidden = (context.kept.get(keptHidden) as Set<string> | undefined) ?? new Set<string>();
   context.kept.set(keptHidden, hidden);
   const firstUnit = widget.traces[0]?.unit;
   for (const plot of plots) {
@@ -56,11 +58,13 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
     for (const trace of plot.traces) {
       const { colour, dash } = look?.lines[drawn.length] ?? { colour: traceColours[drawn.length % traceColours.length], dash: undefined };
       const name = trace.x === null ? trace.label || trace.y : `${trace.label || trace.y} over ${trace.x.slice(trace.x.lastIndexOf(".") + 1)}`;
-      const entry = dash === undefined ? makeLegendEntry(name, trace.y, colour, !hidden.has(colour), (shown) => show(colour, shown)) : null;
+      // What is predicted for a line has its colour and is hidden with it.
+      const key = look === undefined ? trace.y : colour;
+      const entry = dash === undefined ? makeLegendEntry(name, trace.y, colour, !hidden.has(key), (shown) => show(key, shown)) : null;
       if (entry !== null) group.append(entry.element);
       // Traces of one unit share a scale; those of another have theirs at the right.
       const scale = trace.unit === firstUnit ? "y" : "right";
-      drawn.push({ trace, colour, dash, scale, entry });
+      drawn.push({ trace, colour, dash, key, scale, entry });
     }
     legend.append(group);
   }
@@ -106,7 +110,7 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
   function rangeOfValues(scale: string): Range {
     const fixed = zoomed[scale] ?? rangesOf(scale);
     if (fixed !== null) return fixed;
-    const columns = drawn.filter((each) => each.scale === scale && !hidden.has(each.colour)).map((each) => columnOf(each.trace.y));
+    const columns = drawn.filter((each) => each.scale === scale && !hidden.has(each.key)).map((each) => columnOf(each.trace.y));
     if (phase) return padded(rangeOf(columns));
     const [begin, end] = rangeOfTime();
     const range = rangeOf(columns, feed.series.times, begin, end);
@@ -150,7 +154,7 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
     series: [
       {},
       ...drawn.map((each): uPlot.Series => ({
-        label: each.trace.label, show: !hidden.has(each.colour), stroke: each.colour, width: 1.5, pxAlign: 0, ...(each.dash === undefined ? {} : { dash: each.dash }), points: { show: false }, spanGaps: false,
+        label: each.trace.label, show: !hidden.has(each.key), stroke: each.colour, width: 1.5, pxAlign: 0, ...(each.dash === undefined ? {} : { dash: each.dash }), points: { show: false }, spanGaps: false,
         ...(phase ? { facets: [{ scale: "x", auto: true }, { scale: each.scale, auto: true }], paths: phasePath } : { scale: each.scale }),
       })),
     ],
@@ -185,12 +189,11 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
     if (!phase) context.time.show(null);
     drawSoon();
   }
-  /// A line and its twin of the same colour, which is what is predicted for it.
-  function show(colour: string, shown: boolean): void {
-    if (shown) hidden.delete(colour);
-    else hidden.add(colour);
+  function show(key: string, shown: boolean): void {
+    if (shown) hidden.delete(key);
+    else hidden.add(key);
     drawn.forEach((each, i) => {
-      if (each.colour === colour) chart.setSeries(i + 1, { show: shown });
+      if (each.key === key) chart.setSeries(i + 1, { show: shown });
     });
     drawSoon();
   }
@@ -279,7 +282,8 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
   });
   const frame = element("figure", { class: "plot", "data-trail": widget.trail, "aria-label": widget.label },
     element("figcaption", {}, element("span", { class: "name" }, widget.label), readout, copy), host, legend);
-  makeMaximisable(frame, frame.querySelector("figcaption")!);
+  const title = frame.querySelector("figcaption")!;
+  makeMaximisable(frame, title);
   if (widget.width) frame.style.width = `${widget.width}px`;
 
   let asked = 0;
@@ -299,6 +303,7 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
   });
   resize.observe(host);
   const forget = [
+    makeLayable(context, frame, title, widget.trail),
     makeHeightResizable(context, frame, host, widget.trail, widget.height ?? defaultHeight),
     ...(phase ? [] : [wheelZooms(chart, context, { shown: rangeOfTime, whole: wholeTime })]),
     context.onTheme(() => chart.redraw(false, true)),

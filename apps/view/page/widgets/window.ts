@@ -11,9 +11,9 @@ import { makeCounter } from "./counter.ts";
 import { makeDial } from "./dial.ts";
 import { makeInput } from "./input.ts";
 import { makeLightButton } from "./light_button.ts";
-import { makePlot } from "./plot.ts";
 import { makePlot3D } from "./plot3d.ts";
 import { makeSlider } from "./slider.ts";
+import { makePlotPanels } from "./small_multiples.ts";
 import { makeTable } from "./table.ts";
 import { makeText } from "./text.ts";
 
@@ -45,7 +45,7 @@ function makePart(context: Context, widget: Widget): Part | null {
     case "Button.Choice": return makeChoice(context, widget);
     case "Text": return makeText(context, widget);
     case "Table": return makeTable(context, widget);
-    case "Plot": return [...context.overlays.values()].flat().includes(widget) ? null : makePlot(context, widget);
+    case "Plot": return [...context.overlays.values()].flat().includes(widget) ? null : makePlotPanels(context, widget);
     case "Plot.3D": return makePlot3D(context, widget);
   }
 }
