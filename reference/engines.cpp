@@ -46,9 +46,8 @@ simulation::PeerChoices peer_choices() {
   simulation::PeerChoices choices;
   for (const Peer& peer : known_peers()) {
     choices.engines.emplace_back(peer.name);
-    if (!peer.own_setting.name.empty())
-      choices.settings.push_back(
-          {std::string(peer.own_setting.name), std::string(peer.own_setting.doc)});
+    for (const OwnSetting& own : peer.own_settings)
+      choices.settings.push_back({std::string(own.name), std::string(own.doc)});
   }
   return choices;
 }

@@ -298,11 +298,14 @@ contact::MaterialConstants<double> material_at(const simulation::Experiment& exp
                                              : contact::MaterialConstants<double>{};
 }
 
+int sole_foot_material(const simulation::Experiment& experiment) {
+  const std::set<int> feet = foot_materials(experiment);
+  return feet.size() == 1 ? *feet.begin() : simulation::no_material;
+}
+
 contact::MaterialConstants<double> ground_material(const simulation::Experiment& experiment) {
   if (!experiment.terrain) return {};
-  const std::set<int> feet = foot_materials(experiment);
-  return PairMaterials(experiment)
-      .of(feet.size() == 1 ? *feet.begin() : simulation::no_material, experiment.terrain->material);
+  return PairMaterials(experiment).of(sole_foot_material(experiment), experiment.terrain->material);
 }
 
 }  // namespace hookpoint::reference

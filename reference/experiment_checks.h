@@ -137,6 +137,8 @@ bool has_material(const simulation::BodySpec& body);
 /// A material by its index; the constants' defaults where the experiment has none.
 contact::MaterialConstants<double> material_at(const simulation::Experiment& experiment,
                                                int material);
+/// The one material of all that touches; no_material where it is of several.
+int sole_foot_material(const simulation::Experiment& experiment);
 /// What the ground, where no patch lies, and all that touches it make together. Where what touches is of
 /// several materials, the ground's; the constants' defaults where there is no terrain.
 contact::MaterialConstants<double> ground_material(const simulation::Experiment& experiment);

@@ -6,7 +6,7 @@ namespace hookpoint::reference {
 
 std::vector<std::string> Peer::settings_names() const {
   std::vector<std::string> names{"default", "recommended", "matched"};
-  if (!own_setting.name.empty()) names.emplace_back(own_setting.name);
+  for (const OwnSetting& own : own_settings) names.emplace_back(own.name);
   return names;
 }
 

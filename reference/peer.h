@@ -33,7 +33,7 @@ struct Peer {
   std::string_view version;  ///< of the library linked; empty where this build has none
   /// What it does not do as ours does, beside what every peer lacks (common_gaps_and).
   std::span<const OwnGap> gaps{};
-  OwnSetting own_setting{};
+  std::span<const OwnSetting> own_settings{};
   /// Of a Material, what it makes contacts of at `settings = matched`, beside friction.
   std::span<double contact::MaterialConstants<double>::*const> matched_constants =
       spring_and_damper;

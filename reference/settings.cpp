@@ -15,9 +15,11 @@ const std::string& SettingRow::at(Settings settings) const {
       case Settings::matched:
         return matched;
       case Settings::own:
+        return own.empty() ? recommended : own;
+      case Settings::second_own:
         break;
     }
-    return own.empty() ? recommended : own;
+    return second_own.empty() ? recommended : second_own;
   };
   return written() == same_as_default ? default_ : written();
 }

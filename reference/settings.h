@@ -14,12 +14,13 @@ enum class Settings {
   default_,     ///< the library's first example
   recommended,  ///< what its maintainers do
   matched,      ///< nearest to a material's spring and damper
-  own           ///< one more that the engine has beside these (Peer::own_setting)
+  own,          ///< one more that the engine has beside these (Peer::own_settings)
+  second_own    ///< and another
 };
 
 /// A setting that one engine has alone.
 struct OwnSetting {
-  std::string_view name;  ///< as in `settings = noslip`; empty: there is none
+  std::string_view name;  ///< as in `settings = noslip`
   std::string_view doc;   ///< what it is, for the manual
 };
 
@@ -34,6 +35,7 @@ struct SettingRow {
   std::string matched;      ///< value at `settings = matched`
   std::string source;       ///< where the values come from
   std::string own{};        ///< value at the engine's own setting; empty: as recommended
+  std::string second_own{};
 
   /// The value itself, also where the row has same_as_default.
   const std::string& at(Settings settings) const;

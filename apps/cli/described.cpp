@@ -86,7 +86,8 @@ void add_engine_settings(std::vector<Entry>& entries) {
       std::string& text = texts[name];
       if (text.empty()) text = fmt::format("{}, settings of reference engines\n", name);
       text += fmt::format("  {}\n", peer.name);
-      if (name == peer.own_setting.name) text += fmt::format("    {}\n", peer.own_setting.doc);
+      for (const reference::OwnSetting& own : peer.own_settings)
+        if (name == own.name) text += fmt::format("    {}\n", own.doc);
       const auto setting = reference::settings_named(name, peer);
       if (!setting || peer.settings_table == nullptr) continue;
       for (const reference::SettingRow& row : peer.settings_table())

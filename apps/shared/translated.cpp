@@ -9,6 +9,7 @@
 #include "apps/shared/robot_file.h"
 #include "simulation/analysis/carried_load.h"
 #include "simulation/analysis/inverse_weight.h"
+#include "simulation/experiment/contact_materials.h"
 #include "simulation/experiment/ground.h"
 #include "text/display.h"
 
@@ -131,7 +132,10 @@ std::vector<Answer> contacts_of(simulation::Experiment experiment,
   for (std::size_t robot = 0; robot < experiment.robots.size(); ++robot) {
     for (const simulation::CarriedLoad& carried :
          simulation::carried_loads(experiment, robot, *terrain, inputs)) {
-      const auto& material = experiment.materials[static_cast<std::size_t>(carried.material)];
+      simulation::MaterialSpec material =
+          experiment.materials[static_cast<std::size_t>(carried.material)];
+      material.constants =
+          simulation::contact_constants(experiment, carried.foot, carried.material);
       if (request.material && material.name != *request.material) continue;
       Situation at = given;
       if (given.load == 0.) {

@@ -13,8 +13,10 @@ const options = {
   elliptic: elliptic(1),
   elliptic_10: elliptic(10),
   discrete: {integrator: "discrete"},
+  file: {},
 };
 const constants = name => ({cone: "pyramidal", impratio: 1, tolerance: 1e-8, noslip_iterations: 0, integrator: "Euler", ...options[name],
+  ...(name === "file" ? Object.fromEntries(["cone", "impratio", "solref", "solimp"].map(word => [word, "of the Materials"])) : {}),
   ...(name === "matched" ? {impratio: "(c_t + dt k_t)/(c + dt k)", solref: "-d k R, -d/dt; R = 1/(dt (c + dt k))", solimp: "d = A/(A + R)"} : {})});
 const hello = {
   name: "mujoco", version: mujoco.mj_versionString(), precision: "double",
@@ -26,6 +28,7 @@ const hello = {
     {name: "elliptic", source: advice + "; impratio 1"},
     {name: "elliptic_10", source: advice + "; impratio 10"},
     {name: "discrete", source: "XML reference, option: the integrator of that name"},
+    {name: "file", source: "what the Materials state: solref, solimp, cone, impratio"},
   ].map(setting => ({...setting, constants: constants(setting.name)})),
   gaps: [
     gap("links without mass", "refused", "give every link a mass"),
@@ -46,6 +49,8 @@ function row(material, dt, inverse_weight) {
   return {solref: [-d * material.normal_stiffness * softness, -d / dt], solimp: [d, d, 0, 0.5, 1]};
 }
 
+const default_row = {solref: [0.02, 1], solimp: [0.9, 0.95, 0.001, 0.5, 2]};
+
 class Model {
   constructor(experiment) {
     this.experiment = experiment;
@@ -60,6 +65,7 @@ class Model {
     const some = this.experiment.contacts[0];
     if (settings === "matched" && some)
       option.impratio = (some.tangential_damping + deltat * some.tangential_stiffness) / (some.normal_damping + deltat * some.normal_stiffness);
+    if (settings === "file" && some?.mujoco) Object.assign(option, {cone: some.mujoco.cone, impratio: some.mujoco.impratio});
     const attributes = Object.entries(option).map(([name, value]) => `${name}="${value}"`).join(" ");
     const world = this.experiment.ground.map((piece, i) => this.piece(piece, i)).join("") +
       bodies.map((body, i) => body.parent < 0 ? this.body(i) : "").join("");
@@ -154,11 +160,11 @@ class World {
   }
 
   soften() {
-    if (this.experiment.settings !== "matched") return;
+    if (!["matched", "file"].includes(this.experiment.settings)) return;
     for (const [id, each] of this.colliders) {
       const material = contact_of(this.experiment, each.material, this.text.ground);
       if (!material) continue;
-      const {solref, solimp} = row(material, this.experiment.deltat, this.model.body_invweight0[2 * this.bodies[each.body]]);
+      const {solref, solimp} = this.experiment.settings === "file" ? material.mujoco ?? default_row : row(material, this.experiment.deltat, this.model.body_invweight0[2 * this.bodies[each.body]]);
       solref.forEach((value, k) => { this.model.geom_solref[2 * id + k] = value; });
       solimp.forEach((value, k) => { this.model.geom_solimp[5 * id + k] = value; });
     }

@@ -2,25 +2,22 @@
 
     python3 tune_trot.py
 
-`quadruped.xml` has position servos; their goals are ports. The gait has six numbers: frequency, swing of the thighs, lift of the shins, both mean
-angles, and the phase of the lift. Diagonal legs move together, the pairs half a period apart. The cross-entropy method makes it go far
-and straight, each world on a ground of its own friction.
+`configs/robots/quadruped.xml` has position servos; their goals are ports. The gait has six numbers: frequency, swing of the thighs, lift
+of the shins, both mean angles, and the phase of the lift. Diagonal legs move together, the pairs half a period apart. The cross-entropy
+method makes it go far and straight, each world on a ground of its own friction.
 """
-import pathlib
-
 import numpy as np
 
 import cross_entropy
 import hookpoint
 
-ROBOT = pathlib.Path(__file__).resolve().parent / "quadruped.xml"
-SCENE = f"""
-World world {{
+SCENE = """
+World world {
   deltat = 0.25 ms; duration = 100 s;
   Include "materials/rigid_floor.hook" (load = 30 N, allowance = 2 mm, damping_ratio = 0.5);
-  Terrain.Flat ground {{ material = rigid_floor; }}
-  Include "{ROBOT}" (name = quadruped, keyframe = home, rest_on = ground);
-}}
+  Terrain.Flat ground { material = rigid_floor; }
+  Include "robots/quadruped.xml" (name = quadruped, keyframe = home, rest_on = ground);
+}
 """
 LEGS = ["front_left", "front_right", "rear_left", "rear_right"]
 PHASES = np.array([0., np.pi, np.pi, 0.])

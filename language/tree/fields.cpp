@@ -11,6 +11,12 @@ std::string default_text(double value) {
   return text;
 }
 
+std::string default_text(std::span<const double> values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ",") + default_text(value);
+  return text;
+}
+
 std::string default_text(const Vector3d& value) {
   return fmt::format("{},{},{}", value.x, value.y, value.z);
 }

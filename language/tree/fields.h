@@ -6,9 +6,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -102,6 +104,11 @@ inline void assign(const Field& given, Vector3d& member) {
 inline void assign(const Field& given, Quaterniond& member) {
   member = {given.numbers[0], given.numbers[1], given.numbers[2], given.numbers[3]};
 }
+/// Fewer numbers than the array has leave the others as they are.
+template <std::size_t count>
+void assign(const Field& given, std::array<double, count>& member) {
+  std::ranges::copy(given.numbers, member.begin());
+}
 inline void assign(const Field& given, std::string& member) { member = given.words[0]; }
 inline void assign(const Field& given, std::vector<std::string>& member) { member = given.words; }
 /// The field itself: numbers or words, a formula.
@@ -128,6 +135,11 @@ inline std::string default_text(const std::optional<double>&) { return ""; }
 template <std::integral Integer>
 std::string default_text(Integer value) {
   return std::to_string(value);
+}
+std::string default_text(std::span<const double> values);  ///< 0.02,1
+template <std::size_t count>
+std::string default_text(const std::array<double, count>& values) {
+  return default_text(std::span<const double>(values));
 }
 std::string default_text(const Vector3d& value);     ///< 0,0,0
 std::string default_text(const Quaterniond& value);  ///< 1,0,0,0
@@ -208,6 +220,13 @@ template <class Spec>
 LoadedField<Spec> list_field(std::string_view name, std::string unit, int min_count, int max_count,
                              const Field* Spec::*member, std::string doc) {
   return kept(member, list_field(name, std::move(unit), min_count, max_count, "", std::move(doc)));
+}
+/// As many as the array has, or fewer.
+template <class Spec, std::size_t most>
+LoadedField<Spec> list_field(std::string_view name, std::string unit, int min_count,
+                             std::array<double, most> Spec::*member, std::string doc) {
+  return kept(member, list_field(name, std::move(unit), min_count, static_cast<int>(most), "",
+                                 std::move(doc)));
 }
 FieldSchema vector_field(std::string_view name, std::string unit, std::string default_text,
                          std::string doc);

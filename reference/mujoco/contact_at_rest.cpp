@@ -35,24 +35,18 @@ std::optional<Pyramid> pyramid_at_rest(double t, double u, double least, double 
   return mean;
 }
 
-/// R of each of a pyramid's rows, of that of an elliptic normal row.
-double pyramid_softness(double friction, const MujocoSettings& settings, double softness) {
-  const double mu_squared = friction * friction;
-  return 2. * mu_squared / settings.friction_impedance * (1. + mu_squared) * softness;
-}
-
 /// At impedance `d`.
 simulation::ClosedForm<MujocoRest> rest_at(const MujocoLoad& load, const MujocoSettings& settings,
-                                           const MujocoReference& reference, double d) {
+                                           const contact::MujocoReference& reference, double d) {
   const double softness = (1. - d) / d * load.inverse_weight;
   const double mu = load.friction;
-  if (settings.elliptic) {
+  if (settings.friction.elliptic) {
     if (load.tangential > mu * load.least * load.normal) return point_at_limit;
     return MujocoRest{
-        {softness / settings.friction_impedance * load.tangential / reference.damping, 0.},
+        {softness / settings.friction.impedance_ratio * load.tangential / reference.damping, 0.},
         softness * load.normal / (reference.stiffness * d)};
   }
-  const double row = pyramid_softness(mu, settings, softness);
+  const double row = contact::mujoco_pyramid_softness(mu, settings.friction, softness);
   const double part = load.tangential / (mu * load.normal);
   const auto pyramid =
       pyramid_at_rest(part * load.along, part * load.across, load.least, load.largest);
@@ -70,39 +64,12 @@ simulation::ClosedForm<MujocoRest> rest_at(const MujocoLoad& load, const MujocoS
 
 }  // namespace
 
-MujocoReference mujoco_reference(const MujocoRow& row, double dt) {
-  const double d =
-      std::clamp(row.impedance[1], mujoco_least_impedance, 1. - mujoco_least_impedance);
-  if (row.reference[0] < 0.) return {-row.reference[0] / (d * d), -row.reference[1] / d};
-  const double time = std::max(row.reference[0], 2. * dt) * d;
-  return {1. / (time * time * row.reference[1] * row.reference[1]), 2. / time};
-}
-
-double mujoco_impedance(const MujocoRow& row, double depth) {
-  const auto [at_surface, at_width, width, midpoint, power] = row.impedance;
-  const auto bounded = [](double d) {
-    return std::clamp(d, mujoco_least_impedance, 1. - mujoco_least_impedance);
-  };
-  if (at_surface == at_width || width <= 0.) return bounded(at_surface);
-  const double x = std::min(1., depth / width);
-  const double y = x <= midpoint
-                       ? midpoint * std::pow(x / midpoint, power)
-                       : 1. - (1. - midpoint) * std::pow((1. - x) / (1. - midpoint), power);
-  return bounded(at_surface + y * (at_width - at_surface));
-}
-
-double mujoco_normal_softness(double inverse_weight, double friction,
-                              const MujocoSettings& settings, double d) {
-  const double softness = (1. - d) / d * inverse_weight;
-  return settings.elliptic ? softness : 0.25 * pyramid_softness(friction, settings, softness);
-}
-
 simulation::ClosedForm<MujocoRest> mujoco_rest(const MujocoLoad& load,
                                                const MujocoSettings& settings, const MujocoRow& row,
                                                double dt) {
-  const MujocoReference reference = mujoco_reference(row, dt);
+  const contact::MujocoReference reference = contact::mujoco_reference(row, dt);
   const auto at = [&](double depth) {
-    return rest_at(load, settings, reference, mujoco_impedance(row, depth));
+    return rest_at(load, settings, reference, contact::mujoco_impedance(row, depth));
   };
   const auto surface = at(0.);
   if (!surface) return surface;

@@ -7,22 +7,6 @@
 
 namespace hookpoint::reference {
 
-/// The rows' own stiffness and damping, of a = -B v - K d r - R f.
-struct MujocoReference {
-  double stiffness;  ///< K [1/s^2]
-  double damping;    ///< B [1/s]
-};
-/// Of solref, whose time constant is two steps at least (XML reference, flag refsafe). `dt` [s].
-MujocoReference mujoco_reference(const MujocoRow& row, double dt);
-
-/// The impedance d at a depth [m] (XML reference, solimp).
-double mujoco_impedance(const MujocoRow& row, double depth);
-
-/// R of the normal direction at impedance `d` [1/kg]: (1 - d)/d A of an elliptic contact, a quarter
-/// of its rows' of a pyramid, which has four.
-double mujoco_normal_softness(double inverse_weight, double friction,
-                              const MujocoSettings& settings, double d);
-
 /// A body at rest on a plane, of which each contact carries the same friction.
 struct MujocoLoad {
   double inverse_weight = 0.;           ///< A [1/kg]

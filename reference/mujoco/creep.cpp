@@ -7,6 +7,7 @@
 #include "reference/mujoco/engine.h"
 #include "reference/mujoco/friction.h"
 #include "reference/mujoco/settings.h"
+#include "reference/mujoco_materials.h"
 #include "reference/resting_body.h"
 #include "reference/static_depth.h"
 #include "simulation/experiment/robot_tree.h"
@@ -72,12 +73,14 @@ simulation::ClosedForm<simulation::CreepVelocity> mujoco_creep(
     const simulation::Experiment& experiment) {
   const auto load = load_at_rest(experiment);
   if (!load) return load.none();
-  const auto material = ground_material(experiment);
-  const MujocoSettings settings =
-      mujoco_settings(settings_of(experiment, mujoco_peer), experiment.deltat, material);
+  const MujocoSettings settings = mujoco_settings(experiment, settings_of(experiment, mujoco_peer));
   if (settings.no_slip_iterations > 0)
     return simulation::NoClosedForm{"MuJoCo's no-slip iterations end before they converge"};
-  const MujocoRow row = mujoco_row(settings, experiment.deltat, material, load->inverse_weight);
+  const MujocoRow row =
+      settings.of_file
+          ? mujoco_row_of(experiment, sole_foot_material(experiment), experiment.terrain->material)
+          : mujoco_row(settings, experiment.deltat, ground_material(experiment),
+                       load->inverse_weight);
   const auto rest = mujoco_rest(*load, settings, row, experiment.deltat);
   if (!rest) return rest.none();
   return rest->velocity;

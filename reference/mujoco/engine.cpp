@@ -24,6 +24,13 @@ constexpr auto gaps = std::to_array<OwnGap>({
      "the ratio of tangential to normal constants (impratio) is one for a world, the ground's"},
 });
 
+constexpr auto own_settings = std::to_array<OwnSetting>({
+    {"noslip", "noslip, of mujoco alone, is recommended with the no-slip iterations of its manual"},
+    {"file",
+     "file, of mujoco and mujoco_3_14, has what the Materials state in their words: solref, solimp, "
+     "cone, impratio"},
+});
+
 }  // namespace
 
 constinit const Peer mujoco_peer{
@@ -32,9 +39,7 @@ constinit const Peer mujoco_peer{
     .package = "libmujoco-dev",
     .version = HOOKPOINT_MUJOCO_VERSION,
     .gaps = gaps,
-    .own_setting = {"noslip",
-                    "noslip, of mujoco alone, is recommended with the no-slip iterations of its "
-                    "manual"},
+    .own_settings = own_settings,
     .make = make_engine<mujoco_peer>,
     .make_world = HOOKPOINT_MUJOCO_WORLD,
     .settings_table = mujoco_settings_table,

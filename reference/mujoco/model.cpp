@@ -110,8 +110,8 @@ class Builder {
     text_ << "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\" balanceinertia=\"false\""
              " boundmass=\"0\" boundinertia=\"0\" autolimits=\"true\"/><option timestep=\""
           << experiment_.deltat << "\" gravity=\"" << experiment_.gravity << "\" cone=\""
-          << (settings.elliptic ? "elliptic" : "pyramidal") << "\" impratio=\""
-          << settings.friction_impedance << "\" tolerance=\"" << settings.tolerance
+          << (settings.friction.elliptic ? "elliptic" : "pyramidal") << "\" impratio=\""
+          << settings.friction.impedance_ratio << "\" tolerance=\"" << settings.tolerance
           << "\" noslip_iterations=\"" << std::to_string(settings.no_slip_iterations)
           << "\" integrator=\"Euler\" solver=\"Newton\"/>";
     // Room for contacts and their rows, whose square is the size of a matrix. Beyond it MuJoCo

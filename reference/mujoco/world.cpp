@@ -14,6 +14,7 @@
 #include "reference/external_forces.h"
 #include "reference/mujoco/friction.h"
 #include "reference/mujoco/model.h"
+#include "reference/mujoco_materials.h"
 #include "reference/pair_materials.h"
 #include "reference/touching_points.h"
 #include "simulation/experiment/loop_places.h"
@@ -268,8 +269,9 @@ class MujocoWorld final : public PeerWorld {
     const contact::MaterialConstants<double>& material = materials_.of(foot, ground);
     // The constraint's "diagApprox" of a contact with the world (manual, Computation).
     const int body = model_.geom_bodyid[sides_of(contact).robot];
-    const MujocoRow row =
-        mujoco_row(settings_, experiment_.deltat, material, model_.body_invweight0[2 * body]);
+    const MujocoRow row = settings_.of_file ? mujoco_row_of(experiment_, foot, ground)
+                                            : mujoco_row(settings_, experiment_.deltat, material,
+                                                         model_.body_invweight0[2 * body]);
     const double friction = single_friction(material);
     // Without friction a contact has one row: the least coefficient of one with three is 1e-5.
     contact.dim = friction > 0. ? 3 : 1;
@@ -408,8 +410,7 @@ class MujocoWorld final : public PeerWorld {
 
 std::unique_ptr<PeerWorld> make_mujoco_world(const simulation::Experiment& experiment,
                                              Settings settings) {
-  return std::make_unique<MujocoWorld>(
-      experiment, mujoco_settings(settings, experiment.deltat, ground_material(experiment)));
+  return std::make_unique<MujocoWorld>(experiment, mujoco_settings(experiment, settings));
 }
 
 }  // namespace hookpoint::reference

@@ -1,11 +1,13 @@
 #include "reference/process/experiment_json.h"
 
+#include <algorithm>
 #include <set>
 #include <variant>
 #include <vector>
 
 #include "reference/experiment_checks.h"
 #include "reference/ground.h"
+#include "reference/mujoco_materials.h"
 #include "reference/pair_materials.h"
 #include "reference/robot_tree.h"
 #include "reference/solids.h"
@@ -161,13 +163,27 @@ class ExperimentText {
     for (const TouchingPoint& point : touching_points(experiment_, tree_))
       feet.insert(point.material);
     const PairMaterials pairs(experiment_);
+    const bool is_stated = std::ranges::any_of(
+        experiment_.materials, [](const auto& material) { return material.mujoco.has_value(); });
     for (const int ground : grounds)
       for (const int foot : feet) {
         json_.begin_object().member("foot", foot).member("ground", ground);
         for (const simulation::MaterialField& field : simulation::material_fields())
           json_.member(field.name, pairs.of(foot, ground).*field.member);
+        if (is_stated) add_mujoco(foot, ground);
         json_.end_object();
       }
+  }
+
+  /// The words of MuJoCo's files, where a Material states them.
+  void add_mujoco(int foot, int ground) {
+    const contact::MujocoRow row = mujoco_row_of(experiment_, foot, ground);
+    const contact::MujocoFriction friction = mujoco_friction_of(experiment_);
+    json_.key("mujoco").begin_object();
+    json_.key("solref").numbers({row.reference.begin(), row.reference.end()});
+    json_.key("solimp").numbers({row.impedance.begin(), row.impedance.end()});
+    json_.member("impratio", friction.impedance_ratio);
+    json_.member("cone", friction.elliptic ? "elliptic" : "pyramidal").end_object();
   }
 
   const Experiment& experiment_;

@@ -56,6 +56,7 @@ std::vector<CarriedLoad> carried_loads(const Experiment& experiment, std::size_t
     if (share.points == 0 || effective < share.least_mass) {
       share.least_mass = effective;
       share.body = point.body;
+      share.foot = point.foot_material;
     }
     share.impact_speed =
         std::max(share.impact_speed,

@@ -19,6 +19,7 @@ struct CarriedLoad {
   double load = 0.;        ///< on each, mass times gravity [N]
   double least_mass = 0.;  ///< that a blow along the normal feels at one, joints free [kg]
   std::size_t body = 0;    ///< whose point that is, in the order of robot_tree.h
+  int foot = no_material;  ///< material of that point's side
   /// Towards the ground, of its points when the lowest of them lands: by their speed at the start
   /// and the fall from there [m/s]; 0 for a robot that touches and does not come down.
   double impact_speed = 0.;

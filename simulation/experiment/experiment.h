@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "contact/combination.h"
+#include "contact/mujoco_contact.h"
 #include "contact/terrain/terrain.h"
 #include "contact/vocabulary.h"
 #include "math/rotation.h"
@@ -169,6 +170,8 @@ struct MaterialSpec {
   std::vector<double contact::MaterialConstants<double>::*> unstated{};
   /// Constants that are stated for this run: those that its engine does not read are reported.
   std::vector<double contact::MaterialConstants<double>::*> meant{};
+  /// Where the file states MuJoCo's own parameters.
+  std::optional<contact::MujocoContact> mujoco{};
 };
 
 /// Constants of contacts between two materials, whichever is the foot's, instead of what they

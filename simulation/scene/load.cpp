@@ -155,7 +155,12 @@ std::optional<Experiment> load_experiment(const language::Object& root,
   load_forces(*world, loading);
   check_combinations(*world, loading);
   // A pose on the ground means something only for robots and ground that are right.
-  if (diagnostics.error_count() == errors_before) place_on_terrain(loading);
+  if (diagnostics.error_count() == errors_before) {
+    const std::vector<bool> laid = lay_on_terrain(loading);
+    if (diagnostics.error_count() == errors_before)
+      complete_mujoco_materials(is_automatic(*world), loading);
+    settle_on_terrain(laid, loading);
+  }
   if (diagnostics.error_count() == errors_before && is_automatic(*world))
     choose_deltat(root, loading);
   if (diagnostics.error_count() == errors_before && loading.experiment.chosen_from)

@@ -176,8 +176,13 @@ void warn_of_overlaps(Loading& loading);
 MassSpec load_mass(const language::Object& object, const std::vector<ShapeSpec>& shapes,
                    const std::vector<const language::Object*>& shape_objects,
                    bool must_have_inertia, Loading& loading);
-/// Lays robots that `rest_on` a terrain on it and checks that every robot starts above its terrain.
-void place_on_terrain(Loading& loading);
+/// Lays robots that `rest_on` a terrain on it; which ones, without an error.
+std::vector<bool> lay_on_terrain(Loading& loading);
+/// Gives Materials that state MuJoCo's parameters the stiffness and damping that follow from them under
+/// the load of a robot, and says so. `automatic`: the World's step is not chosen yet.
+void complete_mujoco_materials(bool automatic, Loading& loading);
+/// Lets those that were laid settle, and checks that every robot starts above its terrain.
+void settle_on_terrain(const std::vector<bool>& laid, Loading& loading);
 /// What cannot run together: laws, integrators, engines, robots.
 void check_combinations(const language::Object& world, Loading& loading);
 

@@ -201,18 +201,28 @@ void check_inside(const language::Object& base, const contact::Terrain& ground,
 
 }  // namespace
 
-void place_on_terrain(Loading& loading) {
+std::vector<bool> lay_on_terrain(Loading& loading) {
+  std::vector<bool> laid(loading.experiment.robots.size());
+  if (!loading.experiment.terrain) return laid;
+  const contact::Terrain ground(*loading.experiment.terrain);
+  for (std::size_t i = 0; i < laid.size(); ++i) {
+    const language::Object& base = *loading.bases[i];
+    if (!base.given(base_field::rest_on)) continue;
+    const std::size_t errors_before = loading.diagnostics.error_count();
+    lay_down(base, ground, loading.experiment.robots[i], loading);
+    laid[i] = loading.diagnostics.error_count() == errors_before;
+  }
+  return laid;
+}
+
+void settle_on_terrain(const std::vector<bool>& laid, Loading& loading) {
   if (!loading.experiment.terrain) return;
   const contact::Terrain ground(*loading.experiment.terrain);
-  for (std::size_t i = 0; i < loading.experiment.robots.size(); ++i) {
+  for (std::size_t i = 0; i < laid.size(); ++i) {
     RobotSpec& robot = loading.experiment.robots[i];
     const language::Object& base = *loading.bases[i];
-    const std::size_t errors_before = loading.diagnostics.error_count();
-    if (base.given(base_field::rest_on)) lay_down(base, ground, robot, loading);
-    const bool laid =
-        base.given(base_field::rest_on) && loading.diagnostics.error_count() == errors_before;
-    if (laid && base.boolean(base_field::settled)) settle(base, ground, robot, loading);
-    if (laid) warn_of_bodies_below(base, ground, robot, loading);
+    if (laid[i] && base.boolean(base_field::settled)) settle(base, ground, robot, loading);
+    if (laid[i]) warn_of_bodies_below(base, ground, robot, loading);
     check_inside(base, ground, robot, loading);
   }
 }

@@ -1,6 +1,7 @@
 // The numbers that can be read though nothing computes them.
 #include "control/registry.h"
 #include "language/tree/references.h"
+#include "simulation/experiment/material_fields.h"
 #include "simulation/experiment/robot_tree.h"
 #include "simulation/scene/body.h"
 #include "simulation/scene/fixed_part.h"
@@ -42,13 +43,25 @@ class Values {
       const language::Field* value = object.find(field.name);
       const bool writable = field.port != Direction::output;
       if (value != nullptr) {
-        const bool chosen = value->numbers.empty();  // a word stands for it: deltat = auto
-        add(object, field, chosen ? std::vector{loading_.experiment.deltat} : value->numbers,
-            writable);
+        add(object, field, loaded_numbers(object, *value), writable);
       } else if (writable) {
         add_open(object, field);
       }
     }
+  }
+
+  /// As the load step has them: where a word stands for a step (deltat = auto), and the constants
+  /// that follow from others of a Material.
+  std::vector<double> loaded_numbers(const language::Object& object,
+                                     const language::Field& value) const {
+    if (value.numbers.empty()) return {loading_.experiment.deltat};
+    const auto material = loading_.materials.find(&object);
+    if (material == loading_.materials.end()) return value.numbers;
+    const contact::MaterialConstants<double>& constants =
+        loading_.experiment.materials[static_cast<std::size_t>(material->second)].constants;
+    for (const MaterialField& field : material_fields())
+      if (field.name == value.schema->name) return {constants.*field.member};
+    return value.numbers;
   }
 
   /// A port that the file leaves open. A list has one a part where its length is known all the

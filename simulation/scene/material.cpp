@@ -1,6 +1,10 @@
 // Material: the constants of contact laws on some tiles of the ground.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <optional>
+
 #include "language/tree/fields.h"
 #include "simulation/experiment/material_fields.h"
 #include "simulation/scene/body.h"
@@ -9,8 +13,11 @@
 
 namespace hookpoint::simulation {
 
+using language::append;
+using language::choice_field;
 using language::Fields;
 using language::FieldSchema;
+using language::list_field;
 using language::LoadedField;
 using language::number_field;
 using language::object_field;
@@ -35,6 +42,48 @@ const Fields<Constants>& constants_fields() {
     return described_fields;
   }();
   return fields;
+}
+
+/// What a Material states in MuJoCo's words. The initialisers are MuJoCo's own defaults.
+struct MujocoFields {
+  std::array<double, 2> solref = contact::MujocoRow{}.reference;
+  std::array<double, 5> solimp = contact::MujocoRow{}.impedance;
+  double impratio = contact::MujocoFriction{}.impedance_ratio;
+  enum class Cone { pyramidal, elliptic } cone = Cone::pyramidal;
+};
+constexpr const char* solref_field = "solref";
+
+const Fields<MujocoFields>& mujoco_fields() {
+  static const Fields<MujocoFields> fields{
+      list_field(solref_field, "", 2, &MujocoFields::solref,
+                 "MuJoCo's time constant [s] and damping ratio, or, both below 0, -stiffness and "
+                 "-damping per mass. The first four constants that are not stated are then "
+                 "those which stand and rebound so under the load at the start; mujoco and "
+                 "mujoco_3_14 take the numbers themselves at `settings = file`"),
+      not_negative(list_field("solimp", "", 3, &MujocoFields::solimp,
+                              "MuJoCo's impedances at the surface and from the width on, width "
+                              "[m], midpoint and power; with solref")),
+      positive(number_field("impratio", "", &MujocoFields::impratio,
+                            "MuJoCo's ratio of normal to frictional softness, one for a World; "
+                            "with solref")),
+      choice_field("cone", {"pyramidal", "elliptic"}, &MujocoFields::cone,
+                   "of MuJoCo's friction, one for a World; with solref"),
+  };
+  return fields;
+}
+
+std::optional<contact::MujocoContact> load_mujoco(const language::Object& object,
+                                                  Loading& loading) {
+  const auto is_given = [&](const auto& field) { return object.given(field.name); };
+  if (std::ranges::none_of(mujoco_fields(), is_given)) return std::nullopt;
+  const auto given = language::load_fields(object, mujoco_fields());
+  const auto [time, ratio] = given.solref;
+  if (time > 0. ? ratio <= 0. : ratio > 0.)
+    loading.error(place_of(object, solref_field),
+                  "solref is a time constant and a damping ratio, both above 0, or -stiffness and "
+                  "-damping, neither above 0");
+  return contact::MujocoContact{{given.solref, given.solimp},
+                                {given.cone == MujocoFields::Cone::elliptic, given.impratio}};
 }
 
 /// Each coefficient of friction stands in for the other when only one is given.
@@ -88,6 +137,7 @@ void add_material_class(language::Schema& schema) {
   material.naming = language::Naming::required;
   material.top_level = true;
   material.fields = schemas(constants_fields());
+  append(material.fields, schemas(mujoco_fields()));
   schema.add(std::move(material));
   language::ClassSchema pair;
   pair.name = "Pair";
@@ -128,6 +178,7 @@ void load_materials(const language::Object& root, Loading& loading) {
     store_fields(*object, constants_fields(), material.constants);
     load_friction(*object, material.constants, loading);
     material.unstated = unstated(*object);
+    material.mujoco = load_mujoco(*object, loading);
     loading.materials.emplace(object, static_cast<int>(loading.experiment.materials.size()));
     loading.experiment.materials.push_back(std::move(material));
   }

@@ -299,7 +299,7 @@ TEST(PeerEngine, DescribesItselfAndEverySetting) {
     EXPECT_EQ(description.precision, "double");
     EXPECT_FALSE(description.version.empty());
     std::vector<std::string> settings{"default", "recommended", "matched"};
-    if (peer.name == "mujoco") settings.emplace_back("noslip");
+    if (peer.name == "mujoco") settings.insert(settings.end(), {"noslip", "file"});
     EXPECT_EQ(description.settings, settings);
     for (const auto& row : peer.settings_table()) {
       EXPECT_FALSE(row.default_.empty() || row.recommended.empty() || row.matched.empty())

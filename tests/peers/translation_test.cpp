@@ -2,6 +2,7 @@
 // ctest: alone, released
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -10,8 +11,10 @@
 
 #include "apps/shared/exported.h"
 #include "apps/shared/translated.h"
+#include "reference/engines.h"
 #include "simulation/analysis/inverse_weight.h"
 #include "simulation/experiment/robot_tree.h"
+#include "tests/support/command.h"
 #include "tests/support/folders.h"
 #include "tests/support/native_contacts/native_contact.h"
 #include "translation/translate.h"
@@ -252,6 +255,76 @@ TEST(ExportedToMujoco, InverseWeightsAreMujocos) {
     for (std::size_t body = 0; body + 1 < truth.size(); ++body)
       EXPECT_NEAR(simulation::inverse_weight(*experiment, 0, body) / truth[body + 1], 1., 1e-6)
           << scene << body;
+  }
+}
+
+/// A box on four balls, whose contact the file states; gravity leans by 5 deg, as on a slope.
+std::string box_on_balls(const std::string& option, const std::string& foot) {
+  return "<mujoco><option timestep=\"0.001\" gravity=\"0.855 0 -9.7727\" " + option +
+         R"( integrator="Euler"/><default><geom contype="0" conaffinity="1"/></default><worldbody>
+  <geom type="plane" size="0 0 1" contype="1" friction="0"/>
+  <body name="box" pos="0 0 0.12"><freejoint/><inertial pos="0 0 0" mass="4" diaginertia="0.03 0.04 0.05"/>
+    <geom size="0.02" pos="0.1 0.1 -0.1" )" +
+         foot + "/><geom size=\"0.02\" pos=\"-0.1 0.1 -0.1\" " + foot +
+         "/><geom size=\"0.02\" pos=\"0.1 -0.1 -0.1\" " + foot +
+         "/><geom size=\"0.02\" pos=\"-0.1 -0.1 -0.1\" " + foot +
+         R"(/></body></worldbody>
+  <keyframe><key qpos="0 0 0.12 1 0 0 0"/></keyframe></mujoco>)";
+}
+
+struct StatedContact {
+  const char *option, *foot;
+};
+constexpr std::array stated_contacts{
+    StatedContact{"", "priority=\"1\" friction=\"0.8\""},
+    StatedContact{
+        "cone=\"elliptic\" impratio=\"100\"",
+        "priority=\"1\" friction=\"0.6\" solref=\"0.01 0.7\" solimp=\"0.5 0.99 0.002 0.4 3\""},
+    StatedContact{"cone=\"elliptic\"",
+                  "priority=\"1\" friction=\"0.6\" solref=\"-3000 -80\" solimp=\"0.8 0.8 0.01\""},
+    StatedContact{"impratio=\"10\"", "priority=\"1\" condim=\"1\""},
+};
+
+/// Where the box is under `setting` of the World after 1 s [m].
+Vector3d box_after_a_second(const StatedContact& stated, const std::string& setting) {
+  application::Application application({}, [](const language::Diagnostics&) {});
+  const testing::Workplace place;
+  place.file("box.xml", box_on_balls(stated.option, stated.foot));
+  const auto root = application.evaluate(
+      place.file(
+          "scene.hook",
+          "World w { gravity = 0.855, 0, -9.7727; " + setting +
+              " Terrain.Flat ground { } Include \"box.xml\" (name = box, contact = file); }"),
+      {});
+  const auto experiment = root ? application.load(*root) : std::nullopt;
+  if (!experiment) {
+    ADD_FAILURE() << setting;
+    return {};
+  }
+  const auto engine = application.make_engine(*experiment);
+  for (int i = 0; i < std::lround(1. / experiment->deltat); ++i) engine->step();
+  return engine->state().bodies[0].position;
+}
+
+// The robot's file says what MuJoCo takes: the same bits of path but for the order of a few sums.
+TEST(ContactOfAFile, RunsAtSettingsFileAsTheFileItselfInMujoco) {
+  for (const StatedContact& stated : stated_contacts) {
+    const auto truth = native::mujoco_run(box_on_balls(stated.option, stated.foot), 1000).positions;
+    const Vector3d here =
+        box_after_a_second(stated, "deltat = 1 ms; engine = mujoco; settings = file;");
+    const Vector3d there{truth[0], truth[1], truth[2]};
+    EXPECT_LT(norm(here - there), 1e-9) << stated.option << stated.foot;
+    EXPECT_GT(norm(there - Vector3d{0., 0., 0.12}), 1e-5) << "it does not stay where it was put";
+  }
+}
+
+TEST(ContactOfAFile, StandsUnderOurLawAsDeepAsInMujoco) {
+  for (const StatedContact& stated : stated_contacts) {
+    constexpr double level = 0.12;  // where the balls touch
+    const double truth =
+        level - native::mujoco_run(box_on_balls(stated.option, stated.foot), 1000).positions[2];
+    const double here = level - box_after_a_second(stated, "deltat = 0.1 ms;").z;
+    EXPECT_NEAR(here / truth, 1., 0.01) << stated.option << stated.foot;
   }
 }
 

@@ -1,9 +1,11 @@
 // Robots read from MJCF: poses of their bodies, masses and free accelerations against MuJoCo's own
 // compiled model of the same text; what is refused, in which words and where.
 // ctest: alone
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -336,6 +338,99 @@ TEST(Mjcf, GeomsThatTouchNothingAreShapesWithoutContact) {
   EXPECT_EQ(capsule.length, 0.4);
   EXPECT_EQ(base.shapes[0].material, simulation::no_material);
   ASSERT_NE(base.shapes[1].material, simulation::no_material);
+}
+
+/// A ball of 2 kg on the ground, whose geom has `contact` of its own.
+Loaded load_resting_ball(const std::string& contact, const std::string& before = "",
+                         const std::string& arguments = ", contact = file") {
+  const testing::Workplace place;
+  place.file("robot.xml",
+             mujoco(before + "<worldbody><body><freejoint/><geom size=\"0.1\" mass=\"2\" " +
+                    contact + "/></body></worldbody>"));
+  return load_file(
+      place.file("scene.hook",
+                 "World w { deltat = 1 ms; Terrain.Flat ground { } Include \"robot.xml\" (name "
+                 "= r, rest_on = ground" +
+                     arguments + "); }"));
+}
+
+TEST(Mjcf, ContactOfTheFileIsKeptInItsWordsAndAsASpring) {
+  const Loaded loaded = load_resting_ball(
+      "friction=\"0.7 0.01 0.002\" condim=\"6\" solref=\"0.02 0.8\" solimp=\"0.9 0.9\"",
+      "<option cone=\"elliptic\" impratio=\"10\"/>");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::MaterialSpec& material = loaded.experiment->materials.at(0);
+  ASSERT_TRUE(material.mujoco);
+  EXPECT_EQ(material.mujoco->row.reference, (std::array{0.02, 0.8}));
+  EXPECT_EQ(material.mujoco->row.impedance, (std::array{0.9, 0.9, 0.001, 0.5, 2.}));
+  EXPECT_EQ(material.mujoco->friction, (contact::MujocoFriction{true, 10.}));
+  // K = 1/(d t z)^2 and k = K d^2 m/(1 - d); z is the damping ratio of the mass m.
+  const double stiffness = 2. / (0.016 * 0.016 * 0.1);
+  EXPECT_NEAR(material.constants.normal_stiffness / stiffness, 1., 1e-9);
+  EXPECT_NEAR(material.constants.normal_damping / (2. * 0.8 * std::sqrt(2. * stiffness)), 1., 1e-9);
+  EXPECT_EQ(material.constants.tangential_stiffness, material.constants.normal_stiffness);
+  EXPECT_EQ(material.constants.kinetic_friction, 0.7);
+  EXPECT_EQ(material.constants.spinning_resistance, 0.01);
+  EXPECT_EQ(material.constants.rolling_resistance, 0.002);
+  // Creep on 10 deg: R f/B = (1 - d)/(d m impratio) m g sin(10 deg) d t/2.
+  const double creep = 0.1 / 0.9 / 10. * 9.81 * std::sin(M_PI / 18.) * 0.9 * 0.02 / 2.;
+  for (const std::string& words :
+       {std::string("78125 N/m"), std::string("2 kg"), fmt::format("{:.4g} mm/s", 1e3 * creep)})
+    EXPECT_NE(loaded.diagnostics.find(words), std::string::npos) << words << loaded.diagnostics;
+  for (const char* read : {"solref of <geom>", "solimp of <geom>", "condim of <geom>"})
+    EXPECT_EQ(loaded.diagnostics.find(read), std::string::npos) << loaded.diagnostics;
+  // It starts as deep as that spring carries it.
+  EXPECT_NEAR(loaded.experiment->robots[0].location.z, 0.1 - 2. * 9.81 / stiffness, 1e-9);
+}
+
+TEST(Mjcf, WithoutNumbersOfItsOwnTheContactHasMujocosDefaults) {
+  const Loaded loaded = load_resting_ball("condim=\"1\"");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::MaterialSpec& material = loaded.experiment->materials.at(0);
+  ASSERT_TRUE(material.mujoco);
+  EXPECT_EQ(material.mujoco->row, contact::MujocoRow{});
+  EXPECT_EQ(material.mujoco->friction, contact::MujocoFriction{});
+  EXPECT_EQ(material.constants.kinetic_friction, 0.);
+}
+
+TEST(Mjcf, OtherwiseFrictionAloneOrNothingCounts) {
+  const std::string stated = "friction=\"0.7\" solref=\"0.01 1\"";
+  const Loaded friction = load_resting_ball(stated, "", "");
+  ASSERT_TRUE(friction.experiment);
+  EXPECT_FALSE(friction.experiment->materials.at(0).mujoco);
+  const Loaded ground = load_resting_ball(stated, "", ", contact = ground");
+  ASSERT_TRUE(ground.experiment);
+  EXPECT_EQ(ground.experiment->robots[0].base.shapes.at(0).material, simulation::no_material);
+}
+
+TEST(Mjcf, ContactThatCannotBeIsAnError) {
+  const auto has = [](const Loaded& loaded, const std::string& words) {
+    EXPECT_FALSE(loaded.experiment);
+    EXPECT_NE(loaded.diagnostics.find(words), std::string::npos) << loaded.diagnostics;
+  };
+  has(load_resting_ball("condim=\"2\""), "condim is 1, 3, 4 or 6");
+  has(load_resting_ball("solref=\"0.02 -1\""), "solref is a time constant and a damping ratio");
+  has(load_resting_ball("", "<option impratio=\"0\"/>"), "impratio is above 0");
+  has(load_resting_ball("", "<option cone=\"round\"/>"), "cone is elliptic or pyramidal");
+}
+
+// What a Material states itself holds; nothing to stand on leaves the defaults, and a warning says so.
+TEST(Mjcf, StatedConstantsHoldAndALoadIsNeeded) {
+  const std::string words = "solref = 0.02, 1; ";
+  const auto with = [&](const std::string& more) {
+    return load_text(
+        "World w { deltat = 1 ms; Material m { " + words + more +
+        "} Terrain.Flat ground { material = m; } Robot r { Base.mobile { rest_on = ground; "
+        "Shape.Sphere { radius = 0.1; mass = 2 kg; } } } }");
+  };
+  const Loaded stated = with("normal_stiffness = 5 kN/m; ");
+  ASSERT_TRUE(stated.experiment) << stated.diagnostics;
+  EXPECT_EQ(stated.experiment->materials[0].constants.normal_stiffness, 5000.);
+  EXPECT_NE(stated.experiment->materials[0].constants.tangential_stiffness, 5000.);
+  const Loaded lonely = load_text("World w { deltat = 1 ms; Material m { " + words +
+                                  "} Terrain.Flat ground { material = m; } }");
+  EXPECT_NE(lonely.diagnostics.find("no robot stands on or with Material m"), std::string::npos)
+      << lonely.diagnostics;
 }
 
 TEST(Mjcf, IncludesStandInTheirPlace) {

@@ -46,15 +46,15 @@ Parameters nearest(const DesiredContact& desired, const Situation& at) {
   Parameters result(parameters_of_genesis);
   result.set("sol_params", {time, ratio, d, d, 1e-3, 0.5, 1.});
   result.set("friction", desired.kinetic_friction);
-  result.set("impratio", soft.settings.friction_impedance);
+  result.set("impratio", soft.settings.friction.impedance_ratio);
   result.set_word("friction_cone", "elliptic");
   return result;
 }
 
 Behaviour behaviour(const Parameters& parameters, const Situation& at) {
   reference::MujocoSettings settings;
-  settings.elliptic = parameters.word("friction_cone") == "elliptic";
-  settings.friction_impedance = parameters.number("impratio");
+  settings.friction.elliptic = parameters.word("friction_cone") == "elliptic";
+  settings.friction.impedance_ratio = parameters.number("impratio");
   const auto number = [&](std::size_t i) { return parameters.number("sol_params", i); };
   constexpr double default_time = 0.01;  // constraint_timeconst
   reference::MujocoRow row;

@@ -55,8 +55,8 @@ const std::array parameters_of_mujoco{
 
 reference::MujocoSettings settings_of(const Parameters& parameters) {
   reference::MujocoSettings settings;
-  settings.elliptic = parameters.word("cone") == "elliptic";
-  settings.friction_impedance = parameters.number("impratio");
+  settings.friction.elliptic = parameters.word("cone") == "elliptic";
+  settings.friction.impedance_ratio = parameters.number("impratio");
   return settings;
 }
 
@@ -78,7 +78,7 @@ Parameters nearest(const DesiredContact& desired, const Situation& at) {
   result.set("solref", {soft.row.reference.begin(), soft.row.reference.end()});
   result.set("solimp", {soft.row.impedance.begin(), soft.row.impedance.end()});
   result.set("friction", {desired.kinetic_friction, 0.005, 0.0001});
-  result.set("impratio", soft.settings.friction_impedance);
+  result.set("impratio", soft.settings.friction.impedance_ratio);
   result.set_word("cone", "elliptic");
   return result;
 }

@@ -47,7 +47,7 @@ class MjcfInclude : private RobotInclude {
     chosen.meshes = meshes_argument();
     chosen.mimic = mimic_argument();
     chosen.inertia = inertia_argument();
-    chosen.friction = word_argument("contact", {"friction", "ground"}) != "ground";
+    chosen.contact = contact_argument();
     if (is_given("keyframe")) {
       const language::ForeignField& given = arguments_.at("keyframe");
       chosen.keyframe = given.values[0].text;

@@ -19,14 +19,14 @@ struct MjcfChoices {
   language::Position keyframe_place;  ///< of the argument
   UrdfMimic mimic = UrdfMimic::couple;
   UrdfInertia inertia = UrdfInertia::file;
-  bool friction = true;  ///< geoms have materials of their own friction
+  StatedContact contact = StatedContact::friction;  ///< what of geoms becomes Materials
 };
 
 struct MjcfScene {
   std::string name;
   language::Position place;
   std::vector<UrdfRobot> robots;           ///< each free body's, then what hangs on the world
-  std::vector<SurfaceMaterial> materials;  ///< of geoms that state their friction
+  std::vector<SurfaceMaterial> materials;  ///< of geoms
 };
 
 /// Nothing after an error. Linear in the file.

@@ -49,8 +49,10 @@ class MjcfReader {
  private:
   void leave_out(const std::string& what) { ++left_out_[what]; }
   void leave_out_unread(const XmlElement& element) {
+    const bool contact_is_read = choices_.contact == StatedContact::file && element.tag() == "geom";
     for (const std::string& name : unread_mjcf_attributes(element))
-      leave_out(fmt::format("{} of <{}>", name, element.tag()));
+      if (!contact_is_read || (name != "solref" && name != "solimp" && name != "condim"))
+        leave_out(fmt::format("{} of <{}>", name, element.tag()));
   }
 
   void read_worldbody();
@@ -70,6 +72,9 @@ class MjcfReader {
                  UrdfLink& link);
   void add_mesh_geom(const MjcfAttributes& given, const Pose& X_LG, UrdfLink& link);
   std::string material_of(const MjcfAttributes& given);
+  void add_stated_contact(const MjcfAttributes& given, const std::vector<double>& friction,
+                          SurfaceMaterial& material);
+  void read_friction(const XmlElement& option);
   void require_mass();
   /// `joint` equalities: one joint follows another, or is fixed.
   void read_couplings();
@@ -88,6 +93,7 @@ class MjcfReader {
   language::FileStore& files_;
   language::Report& report_;
   MjcfScene scene_;
+  contact::MujocoFriction friction_;
   std::map<std::string, std::size_t> left_out_;
   std::vector<std::string> repaired_;
   std::set<std::string> link_names_, joint_names_;
@@ -135,6 +141,7 @@ void MjcfReader::read_sections() {
         if (tag != "equality" || element.tag() != "joint")
           leave_out(tag == "sensor" ? "<sensor>" : fmt::format("<{}> of <{}>", element.tag(), tag));
     } else if (is_aside) {
+      if (tag == "option") read_friction(section);
       leave_out(fmt::format("<{}>", tag));
     } else if (!is_read) {
       section.file->fail(section.place(), fmt::format("<mujoco> has no <{}>", tag));
@@ -511,16 +518,51 @@ void MjcfReader::add_mesh_geom(const MjcfAttributes& given, const Pose& X_LG, Ur
 }
 
 std::string MjcfReader::material_of(const MjcfAttributes& given) {
-  if (!choices_.friction || !given.has("friction")) return "";
-  const double friction = given.numbers("friction", {1., 0.005, 0.0001})[0];
-  if (friction < 0.) {
+  const bool all = choices_.contact == StatedContact::file;
+  if (choices_.contact == StatedContact::ground || (!all && !given.has("friction"))) return "";
+  const std::vector<double> friction = given.numbers("friction", {1., 0.005, 0.0001});
+  if (std::ranges::any_of(friction, [](double coefficient) { return coefficient < 0.; })) {
     given.fail("friction", "a coefficient of friction is not negative");
     return "";
   }
   SurfaceMaterial material;
   material.place = given.place("friction");
-  material.friction = friction;
+  material.friction = friction[0];
+  if (all) add_stated_contact(given, friction, material);
   return add_material(std::move(material), scene_.materials);
+}
+
+/// solref and solimp, at MuJoCo's defaults where the file has none, with the cone and impratio of its
+/// <option>; how many friction rows a contact has (condim) says which coefficients count.
+void MjcfReader::add_stated_contact(const MjcfAttributes& given,
+                                    const std::vector<double>& friction,
+                                    SurfaceMaterial& material) {
+  const double rows = given.number("condim", 3.);
+  if (rows != 1. && rows != 3. && rows != 4. && rows != 6.) {
+    given.fail("condim", "condim is 1, 3, 4 or 6");
+    return;
+  }
+  if (rows == 1.) material.friction = 0.;
+  if (rows >= 4.) material.spinning = friction[1];
+  if (rows >= 6.) material.rolling = friction[2];
+  contact::MujocoContact stated{{}, friction_};
+  const auto read = [&](const char* attribute, auto& numbers) {
+    std::ranges::copy(given.numbers(attribute, {numbers.begin(), numbers.end()}), numbers.begin());
+  };
+  read("solref", stated.row.reference);
+  read("solimp", stated.row.impedance);
+  material.mujoco = stated;
+}
+
+/// One for all contacts.
+void MjcfReader::read_friction(const XmlElement& option) {
+  const std::string cone = option.text("cone");
+  if (!cone.empty() && cone != "elliptic" && cone != "pyramidal")
+    option.file->fail(option.place("cone"), "cone is elliptic or pyramidal");
+  if (!cone.empty()) friction_.elliptic = cone == "elliptic";
+  const MjcfAttributes given = document_.attributes(option, "");
+  friction_.impedance_ratio = given.number("impratio", friction_.impedance_ratio);
+  if (!(friction_.impedance_ratio > 0.)) given.fail("impratio", "impratio is above 0");
 }
 
 /// A joint beyond which nothing has a mass cannot be set in motion.

@@ -91,6 +91,19 @@ ForeignObject material_object(const SurfaceMaterial& material, const std::string
   add("restitution", material.restitution);
   add("rolling_resistance", material.rolling);
   add("spinning_resistance", material.spinning);
+  if (!material.mujoco) return object;
+  const contact::MujocoContact& stated = *material.mujoco;
+  const auto add_list = [&](const char* field, const auto& values) {
+    object.fields.push_back(numbers(field, {values.begin(), values.end()}, material.place));
+  };
+  add_list("solref", stated.row.reference);
+  add_list("solimp", stated.row.impedance);
+  add("impratio", stated.friction.impedance_ratio);
+  Value cone;
+  cone.kind = ValueKind::word;
+  cone.text = stated.friction.elliptic ? "elliptic" : "pyramidal";
+  cone.position = material.place;
+  object.fields.push_back({"cone", {cone}, material.place});
   return object;
 }
 

@@ -10,7 +10,8 @@ namespace {
 
 bool same_surface(const SurfaceMaterial& a, const SurfaceMaterial& b) {
   return a.friction == b.friction && a.stiffness == b.stiffness && a.damping == b.damping &&
-         a.restitution == b.restitution && a.rolling == b.rolling && a.spinning == b.spinning;
+         a.restitution == b.restitution && a.rolling == b.rolling && a.spinning == b.spinning &&
+         a.mujoco == b.mujoco;
 }
 
 /// The values to six digits, in letters that a name may have.
@@ -25,6 +26,10 @@ std::string name_of_values(const SurfaceMaterial& material) {
   add("e", material.restitution);
   add("rolling", material.rolling);
   add("spinning", material.spinning);
+  if (material.mujoco) {
+    add("solref", material.mujoco->row.reference[0]);
+    add("ratio", material.mujoco->row.reference[1]);
+  }
   std::ranges::replace(name, '-', 'm');
   std::ranges::replace_if(
       name, [](char c) { return c == '.' || c == '+'; }, '_');

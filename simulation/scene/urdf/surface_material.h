@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "contact/mujoco_contact.h"
 #include "language/source.h"
 
 namespace hookpoint::simulation {
@@ -17,9 +18,10 @@ struct SurfaceMaterial {
   std::optional<double> stiffness, damping;  ///< along the normal [N/m, N s/m]
   std::optional<double> restitution;
   std::optional<double> rolling, spinning;  ///< resistances [m]
+  std::optional<contact::MujocoContact> mujoco;
 
   bool says_nothing() const {
-    return !friction && !stiffness && !damping && !restitution && !rolling && !spinning;
+    return !friction && !stiffness && !damping && !restitution && !rolling && !spinning && !mujoco;
   }
 };
 /// What of a surface counts: nothing, its friction, or all that the file states.
