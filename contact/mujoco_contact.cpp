@@ -17,6 +17,10 @@ double softness_at(double d, double inverse_weight) { return (1. - d) / d * inve
 
 }  // namespace
 
+bool is_mujoco_reference(const std::array<double, 2>& reference) {
+  return reference[0] < 0. ? reference[1] <= 0. : reference[0] > 0. && reference[1] > 0.;
+}
+
 MujocoReference mujoco_reference(const MujocoRow& row, double dt) {
   const double d = bounded(row.impedance[1]);
   if (row.reference[0] <= 0.) return {-row.reference[0] / (d * d), -row.reference[1] / d};
@@ -25,7 +29,7 @@ MujocoReference mujoco_reference(const MujocoRow& row, double dt) {
 }
 
 double mujoco_impedance(const MujocoRow& row, double depth) {
-  // What is out of range is brought to its bound, as MuJoCo does.
+  // MuJoCo clamps what is out of range.
   const double at_surface = bounded(row.impedance[0]), at_width = bounded(row.impedance[1]);
   const double width = row.impedance[2], midpoint = bounded(row.impedance[3]);
   const double power = std::max(1., row.impedance[4]);

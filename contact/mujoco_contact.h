@@ -22,6 +22,13 @@ struct MujocoRow {
   bool operator==(const MujocoRow&) const = default;
 };
 
+/// Whether solref is one of its two forms, with a stiffness above 0.
+bool is_mujoco_reference(const std::array<double, 2>& reference);
+/// For who states another one.
+constexpr const char* mujoco_reference_rule =
+    "solref is a time constant and a damping ratio, both above 0, or -stiffness below 0 and "
+    "-damping not above 0";
+
 /// The shape and the softness of friction, one for a whole world.
 struct MujocoFriction {
   bool elliptic = false;        ///< the cone of friction; else a pyramid inside it

@@ -49,8 +49,6 @@ function row(material, dt, inverse_weight) {
   return {solref: [-d * material.normal_stiffness * softness, -d / dt], solimp: [d, d, 0, 0.5, 1]};
 }
 
-const default_row = {solref: [0.02, 1], solimp: [0.9, 0.95, 0.001, 0.5, 2]};
-
 class Model {
   constructor(experiment) {
     this.experiment = experiment;
@@ -163,8 +161,9 @@ class World {
     if (!["matched", "file"].includes(this.experiment.settings)) return;
     for (const [id, each] of this.colliders) {
       const material = contact_of(this.experiment, each.material, this.text.ground);
-      if (!material) continue;
-      const {solref, solimp} = this.experiment.settings === "file" ? material.mujoco ?? default_row : row(material, this.experiment.deltat, this.model.body_invweight0[2 * this.bodies[each.body]]);
+      const stated = this.experiment.settings === "file";
+      if (!material || (stated && !material.mujoco)) continue;  // MuJoCo's own defaults stay
+      const {solref, solimp} = stated ? material.mujoco : row(material, this.experiment.deltat, this.model.body_invweight0[2 * this.bodies[each.body]]);
       solref.forEach((value, k) => { this.model.geom_solref[2 * id + k] = value; });
       solimp.forEach((value, k) => { this.model.geom_solimp[5 * id + k] = value; });
     }

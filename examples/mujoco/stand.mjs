@@ -1,7 +1,7 @@
 // A robot of an MJCF file stands in MuJoCo 3.14 with the servos of its keyframe; how deep its feet penetrate and how fast they creep.
 //   cd configs/engines && npm ci          (once: MuJoCo of npm)
 //   node examples/mujoco/stand.mjs ROBOT.xml [SLOPE in degrees] [KEYFRAME]
-// The model has its ground itself. A slope is a gravity that leans towards +x. Answers on one line of JSON: mm, mm/s and N.
+// The model has its ground itself. On a slope, gravity is tilted towards +x instead of the ground. Answers on one line of JSON: mm, mm/s and N.
 import {readFileSync} from "node:fs";
 import {createRequire} from "node:module";
 import {dirname, join} from "node:path";

@@ -140,6 +140,7 @@ std::string class_index(const Schema& schema) {
       text += "| " + place + " | " + join(links, ", ") + " |\n";
     }
   }
+  std::ranges::sort(others);
   return others.empty() ? text : text + "| elsewhere | " + join(others, ", ") + " |\n";
 }
 

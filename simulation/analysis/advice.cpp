@@ -145,6 +145,7 @@ std::vector<GroundAdvice> advise_robot(const Experiment& experiment, int index,
   const auto robot = static_cast<std::size_t>(index);
   std::vector<GroundAdvice> grounds;
   for (const CarriedLoad& share : carried_loads(experiment, robot, terrain, inputs)) {
+    require_ground_alone(experiment, share, "advice");
     const MaterialSpec& spec = experiment.materials[static_cast<std::size_t>(share.material)];
     GroundAdvice ground;
     ground.robot = experiment.robots[robot].name;

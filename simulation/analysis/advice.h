@@ -35,7 +35,7 @@ struct GroundAdvice {
   std::size_t points = 0;         ///< that carry the robot, on this material
   double load = 0.;               ///< on each, the weight shared evenly [N]
   double mass = 0.;               ///< above each, load / g [kg]
-  double least_mass = 0.;         ///< that a blow along the normal feels at one, joints free [kg]
+  double least_mass = 0.;         ///< effective mass of an impact at one, joints free [kg]
   double depth = 0.;              ///< at rest with the present constants [m]
   double wanted_depth = 0.;       ///< [m]
   std::optional<double> rebound;  ///< with the present constants; none for a law without one

@@ -1,11 +1,14 @@
 #include "simulation/analysis/carried_load.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "dts/impulse_response.h"
 #include "simulation/dts_engine/robot_system.h"
+#include "simulation/experiment/material_fields.h"
 #include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
@@ -21,7 +24,7 @@ double greatest_depth(const RobotSystem& robot) {
   return deepest;
 }
 
-/// 1/(n . K n), K the collision matrix: what a blow along the normal feels.
+/// 1/(n . K n), K the collision matrix: that of an impact along the normal.
 double effective_mass(RobotSystem& robot, const ContactPoint& point) {
   const Matrix3d K =
       dts::collision_matrix(robot.model(), robot.workspace(), {point.body, point.position});
@@ -71,6 +74,22 @@ std::vector<CarriedLoad> carried_loads(const Experiment& experiment, std::size_t
     loads.push_back(share);
   }
   return loads;
+}
+
+void require_ground_alone(const Experiment& experiment, const CarriedLoad& carried,
+                          const char* who) {
+  if (carried.foot == no_material || carried.foot == carried.material) return;
+  const MaterialSpec& foot = experiment.materials[static_cast<std::size_t>(carried.foot)];
+  using Constants = contact::MaterialConstants<double>;
+  for (const auto constant : {&Constants::normal_stiffness, &Constants::normal_damping,
+                              &Constants::tangential_stiffness, &Constants::tangential_damping,
+                              &Constants::nominal_stiffness, &Constants::hysteresis_damping}) {
+    if (std::ranges::count(foot.unstated, constant) > 0) continue;
+    throw ExperimentError(fmt::format(
+        "Material {} of the feet states {}: a contact is of both sides, and {} computes the ground's constants "
+        "alone; state it on the ground's Material instead (contact = friction or ground of an Include)",
+        foot.name, field_of(constant).name, who));
+  }
 }
 
 }  // namespace hookpoint::simulation

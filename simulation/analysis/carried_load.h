@@ -17,7 +17,7 @@ struct CarriedLoad {
   std::size_t points = 0;  ///< that carry the robot, on this material
   double mass = 0.;        ///< above each, the robot's that moves shared evenly [kg]
   double load = 0.;        ///< on each, mass times gravity [N]
-  double least_mass = 0.;  ///< that a blow along the normal feels at one, joints free [kg]
+  double least_mass = 0.;  ///< effective mass of an impact at one, joints free [kg]
   std::size_t body = 0;    ///< whose point that is, in the order of robot_tree.h
   int foot = no_material;  ///< material of that point's side
   /// Towards the ground, of its points when the lowest of them lands: by their speed at the start
@@ -30,5 +30,10 @@ struct CarriedLoad {
 /// touch, those within 1 mm of its lowest. O(points * links).
 std::vector<CarriedLoad> carried_loads(const Experiment& experiment, std::size_t robot,
                                        const contact::Terrain& terrain, const WorldInputs& inputs);
+
+/// Throws ExperimentError where the foot's material states a stiffness or a damping: a contact is then of
+/// both sides, and `who` computes the ground's constants alone.
+void require_ground_alone(const Experiment& experiment, const CarriedLoad& carried,
+                          const char* who);
 
 }  // namespace hookpoint::simulation

@@ -159,6 +159,7 @@ std::vector<MatchedMaterial> matched_to_hookpoint(const Experiment& experiment) 
   std::vector<MatchedMaterial> materials;
   for (const CarriedLoad& under :
        carried_loads(reference, first_robot(reference), *terrain, initial_inputs(reference))) {
+    require_ground_alone(experiment, under, "`match`");
     const MaterialSpec& spec = experiment.materials[static_cast<std::size_t>(under.material)];
     materials.push_back(law ? match(*law, under, spec) : match_impulses(under, spec));
   }

@@ -77,11 +77,8 @@ std::optional<contact::MujocoContact> load_mujoco(const language::Object& object
   const auto is_given = [&](const auto& field) { return object.given(field.name); };
   if (std::ranges::none_of(mujoco_fields(), is_given)) return std::nullopt;
   const auto given = language::load_fields(object, mujoco_fields());
-  const auto [time, ratio] = given.solref;
-  if (time > 0. ? ratio <= 0. : ratio > 0.)
-    loading.error(place_of(object, solref_field),
-                  "solref is a time constant and a damping ratio, both above 0, or -stiffness and "
-                  "-damping, neither above 0");
+  if (!contact::is_mujoco_reference(given.solref))
+    loading.error(place_of(object, solref_field), contact::mujoco_reference_rule);
   return contact::MujocoContact{{given.solref, given.solimp},
                                 {given.cone == MujocoFields::Cone::elliptic, given.impratio}};
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -115,6 +116,14 @@ void complete_mujoco_materials(bool automatic, Loading& loading) {
     }
     const contact::MujocoSpring spring =
         mujoco_spring(material.mujoco->row, material.mujoco->friction, standing->loading);
+    if (!std::isfinite(spring.stiffness) || !std::isfinite(spring.damping) ||
+        !(spring.stiffness > 0.)) {
+      loading.error(objects[i]->position,
+                    fmt::format("solref and solimp of Material {} give no stiffness within the "
+                                "range of numbers under {:.4g} N",
+                                material.name, standing->loading.load));
+      continue;
+    }
     const std::array values{spring.stiffness, spring.damping, spring.stiffness, spring.damping};
     for (std::size_t k = 0; k < decided.size(); ++k) {
       if (!is_unstated(decided[k])) continue;

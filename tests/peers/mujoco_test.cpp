@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "reference/engines.h"
 #include "reference/mujoco/engine.h"
+#include "reference/mujoco_materials.h"
 #include "tests/support/folders.h"
 #include "tests/support/reference_scenes.h"
 #include "tests/support/run_text.h"
@@ -269,6 +272,40 @@ TEST_F(Mujoco, HasWhatFootAndGroundMakeTogether) {
       slides("mass = 2; inertia = 0.02, 0.02, 0.02, 0, 0, 0; material = steel; For x in "
              "-0.1, 0.1 { For y in -0.1, 0.1 { ContactPoint { location = x, y, -0.05; } } }"),
       expected, 0.01 * expected);
+}
+
+/// One of two Materials, foot 0 and ground 1.
+simulation::Experiment with_contacts(std::optional<contact::MujocoContact> foot,
+                                     std::optional<contact::MujocoContact> ground) {
+  simulation::Experiment experiment;
+  experiment.materials = {{"foot", {}, {}, {}, foot}, {"ground", {}, {}, {}, ground}};
+  return experiment;
+}
+
+// XML reference, geom, solmix: means, and the lesser of direct references; ours: one side alone counts.
+TEST(MujocoMaterials, OfTwoSidesBothOrTheOneThatStates) {
+  const contact::MujocoContact a{{{0.02, 1.}, {0.9, 0.95, 1e-3, 0.5, 2.}}, {}};
+  const contact::MujocoContact b{{{0.04, 0.5}, {0.8, 0.85, 3e-3, 0.5, 2.}}, {}};
+  EXPECT_EQ(reference::mujoco_row_of(with_contacts(a, {}), 0, 1), a.row);
+  EXPECT_EQ(reference::mujoco_row_of(with_contacts({}, b), 0, 1), b.row);
+  EXPECT_EQ(reference::mujoco_row_of(with_contacts({}, {}), 0, 1), contact::MujocoRow{});
+  EXPECT_DOUBLE_EQ(reference::mujoco_row_of(with_contacts(a, b), 0, 1).reference[0], 0.03);
+  simulation::Experiment paired = with_contacts(a, b);
+  paired.pairs.push_back({1, 0, 1});
+  EXPECT_EQ(reference::mujoco_row_of(paired, 0, 1), b.row);
+}
+
+TEST(MujocoMaterials, ConesAndRatiosOfAWorldAreOne) {
+  const contact::MujocoContact cone{{}, {true, 10.}}, pyramid{{}, {false, 1.}};
+  EXPECT_EQ(reference::mujoco_friction_of(with_contacts({}, cone)), cone.friction);
+  try {
+    reference::mujoco_friction_of(with_contacts(cone, pyramid));
+    ADD_FAILURE();
+  } catch (const simulation::ExperimentError& error) {
+    EXPECT_NE(std::string(error.what()).find("foot and ground state different ones"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 }  // namespace

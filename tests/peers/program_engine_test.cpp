@@ -80,8 +80,9 @@ TEST_F(ProgramEngineTest, MujocoIsSetUpAsTheLinkedOne) {
   const reference::Peer& linked = reference::peer_named("mujoco");
   if (!linked.found()) GTEST_SKIP() << "MuJoCo is not found";
   const reference::ProgramEngine program(definition("mujoco.hook"));
-  for (const char* settings : {"default", "recommended", "matched"}) {
-    const auto experiment = sloped_block(15. * degree, 0.3, 0.8, 1e-3, settings);
+  for (const char* settings : {"default", "recommended", "matched", "file"}) {
+    auto experiment = sloped_block(15. * degree, 0.3, 0.8, 1e-3, settings);
+    experiment.materials.at(0).mujoco = {{{0.01, 0.7}, {0.8, 0.9, 2e-3, 0.5, 2.}}, {true, 20.}};
     const auto a = linked.make(experiment), b = program.make(experiment);
     const SlopeAxes axes = slope_axes(15. * degree, 0.3);
     const double theirs = creep_speed(*a, axes.downhill, 1e-3, 1., 2.);

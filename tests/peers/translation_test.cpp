@@ -258,7 +258,7 @@ TEST(ExportedToMujoco, InverseWeightsAreMujocos) {
   }
 }
 
-/// A box on four balls, whose contact the file states; gravity leans by 5 deg, as on a slope.
+/// A box on four balls, whose contact the file states; gravity is tilted by 5 deg.
 std::string box_on_balls(const std::string& option, const std::string& foot) {
   return "<mujoco><option timestep=\"0.001\" gravity=\"0.855 0 -9.7727\" " + option +
          R"( integrator="Euler"/><default><geom contype="0" conaffinity="1"/></default><worldbody>

@@ -410,6 +410,12 @@ TEST(Mjcf, ContactThatCannotBeIsAnError) {
   };
   has(load_resting_ball("condim=\"2\""), "condim is 1, 3, 4 or 6");
   has(load_resting_ball("solref=\"0.02 -1\""), "solref is a time constant and a damping ratio");
+  has(load_resting_ball("solref=\"0 0\""), "solref is a time constant and a damping ratio");
+  has(load_text(
+          "World w { deltat = auto; Material m { solref = 1e-300, 1; } Terrain.Flat g { material = m; } "
+          "Robot r { Base.mobile { rest_on = g; Shape.Sphere { radius = 0.1; mass = 2 kg; } } } }"),
+      "no stiffness within the range of numbers");
+  EXPECT_TRUE(load_resting_ball("", "<option impratio=\"0\"/>", "").experiment);
   has(load_resting_ball("", "<option impratio=\"0\"/>"), "impratio is above 0");
   has(load_resting_ball("", "<option cone=\"round\"/>"), "cone is elliptic or pyramidal");
 }

@@ -158,7 +158,7 @@ TEST(Translate, WrongInputIsSaidAndEndsWithStatus2) {
       {"--from mujoco solreff=1 --load 3N", "no parameter `solreff`"},
       {"--from mujoco solref=0.02,x --load 3N", "not a number"},
       {"--from mujoco solref=1,2,3 --load 3N", "has 2 numbers, not 3"},
-      {"--from mujoco solref=-1,5 --load 3N", "neither above 0"},
+      {"--from mujoco solref=-1,5 --load 3N", "-damping not above 0"},
       {"--from mujoco cone=round --load 3N", "pyramidal or elliptic"},
       {"--from ode mu=-1 --load 3N", "mu is 0 or more"},
       {"--from pybullet --load 3N", "rigid"},

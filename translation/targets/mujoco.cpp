@@ -64,11 +64,8 @@ reference::MujocoRow row_of(const Parameters& parameters) {
   reference::MujocoRow row;
   for (std::size_t i = 0; i < 2; ++i) row.reference[i] = parameters.number("solref", i);
   for (std::size_t i = 0; i < 5; ++i) row.impedance[i] = parameters.number("solimp", i);
-  if (row.reference[0] < 0. ? row.reference[1] > 0.
-                            : row.reference[0] == 0. || row.reference[1] <= 0.)
-    throw ParameterError(
-        "solref is a time constant and a damping ratio, both above 0, or -stiffness and -damping, "
-        "neither above 0");
+  if (!contact::is_mujoco_reference(row.reference))
+    throw ParameterError(contact::mujoco_reference_rule);
   return row;
 }
 

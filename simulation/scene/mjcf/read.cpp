@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 #include "dts/mass_properties.h"
 #include "math/rotation.h"
@@ -141,7 +142,7 @@ void MjcfReader::read_sections() {
         if (tag != "equality" || element.tag() != "joint")
           leave_out(tag == "sensor" ? "<sensor>" : fmt::format("<{}> of <{}>", element.tag(), tag));
     } else if (is_aside) {
-      if (tag == "option") read_friction(section);
+      if (tag == "option" && choices_.contact == StatedContact::file) read_friction(section);
       leave_out(fmt::format("<{}>", tag));
     } else if (!is_read) {
       section.file->fail(section.place(), fmt::format("<mujoco> has no <{}>", tag));
@@ -521,7 +522,8 @@ std::string MjcfReader::material_of(const MjcfAttributes& given) {
   const bool all = choices_.contact == StatedContact::file;
   if (choices_.contact == StatedContact::ground || (!all && !given.has("friction"))) return "";
   const std::vector<double> friction = given.numbers("friction", {1., 0.005, 0.0001});
-  if (std::ranges::any_of(friction, [](double coefficient) { return coefficient < 0.; })) {
+  const auto read = std::span(friction).first(all ? friction.size() : 1);
+  if (std::ranges::any_of(read, [](double coefficient) { return coefficient < 0.; })) {
     given.fail("friction", "a coefficient of friction is not negative");
     return "";
   }

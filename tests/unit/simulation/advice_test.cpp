@@ -13,6 +13,7 @@
 #include "simulation/analysis/advice_constants.h"
 #include "simulation/analysis/stability.h"
 #include "simulation/engine_interface/engine.h"
+#include "tests/support/load_text.h"
 #include "tests/support/run_text.h"
 
 namespace hookpoint {
@@ -45,6 +46,26 @@ double advised(const Advice& advice, const std::string& name) {
 }
 
 // k = m g/(4 delta); zeta from the rebound by the closed form, c = 2 zeta sqrt(k m/4).
+// A contact of two compliant sides is not the ground's alone.
+TEST(Advice, FeetThatStateAStiffnessAreRefused) {
+  const auto scene = [](const std::string& foot) {
+    return *load_text("World w { Material soft { normal_stiffness = 10 kN/m; } Material foot { " +
+                      foot +
+                      " } Terrain.Flat g { material = soft; } Robot b { Base.mobile { rest_on = g; "
+                      "Shape.Sphere { radius = 0.1; mass = 1 kg; material = foot; } } } }")
+                .experiment;
+  };
+  EXPECT_NO_THROW(simulation::advise(scene("static_friction = 0.5;"), {}));
+  try {
+    simulation::advise(scene("normal_stiffness = 5 kN/m;"), {});
+    ADD_FAILURE();
+  } catch (const simulation::ExperimentError& error) {
+    EXPECT_NE(std::string(error.what()).find("Material foot of the feet states normal_stiffness"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Advice, LinearLawByItsClosedForm) {
   const Advice advice = advice_for(block("deltat = 0.1 ms;", ""), {2e-3, 0.3, 0.1});
   const double k = 2. * 9.81 / (4. * 2e-3);
