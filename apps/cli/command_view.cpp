@@ -93,7 +93,11 @@ class Watched {
     std::erase_if(latest,
                   [](const auto& change) { return change.first.starts_with("Simulator."); });
     std::vector<std::string> settings;
-    for (const auto& [trail, value] : latest) settings.push_back(trail + "=" + value);
+    // What the run started from by hand is a field too, where the file states the pose by fields.
+    constexpr std::string_view start = "start:";
+    for (const auto& [trail, value] : latest)
+      settings.push_back(trail.substr(trail.starts_with(start) ? start.size() : 0) + "=" + value);
+    std::string left_out;
     // With the step of the run, not one for what was changed.
     LiveLoader loader(arguments_.file, settings_, arguments_.consent, std::nullopt,
                       loaders_.front().get());
@@ -101,7 +105,10 @@ class Watched {
     if (!changed) {
       // Not every port is a field: those that are none are left out.
       std::erase_if(settings, [&](const std::string& setting) {
-        return !loader.load({setting}, problem).has_value();
+        if (loader.load({setting}, problem)) return false;
+        if (latest.contains(std::string(start) + setting.substr(0, setting.find('='))))
+          left_out += "//   " + setting + "\n";
+        return true;
       });
       changed = loader.load(settings, problem);
     }
@@ -109,6 +116,9 @@ class Watched {
     std::string text =
         "// " + text::printable(arguments_.file.filename().string()) + " with what was changed:\n";
     for (const std::string& setting : settings) text += "//   " + setting + "\n";
+    if (!left_out.empty())
+      text += "// without the pose that it was started from, which the file states otherwise:\n" +
+              left_out;
     text += changed->text;
     return std::pair(arguments_.file.stem().string() + "-changed.hook", std::move(text));
   }
@@ -128,6 +138,7 @@ class Watched {
     shown.plotted = panel.windows.empty() ? view::overview_of(subjects.run().experiment())
                                           : view::plotted_of(panel);
     for (std::string& trail : subjects.displacements()) shown.plotted.push_back(std::move(trail));
+    shown.sliders = view::slider_paths(panel, subjects.run().experiment());
     for (const std::string& source : language::sources_of(root)) shown.sources.emplace_back(source);
     return shown;
   }

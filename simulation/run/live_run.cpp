@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -15,10 +16,15 @@
 namespace hookpoint::simulation {
 
 struct LiveRun::Track {
-  Track(Loaded from, std::vector<std::string> with)
+  Track(Loaded from, std::vector<std::string> with, std::span<const StartValue> starts)
       : loaded(std::move(from)),
         overrides(std::move(with)),
         world(loaded->experiment, loaded->make_engine(loaded->experiment)) {
+    if (!starts.empty()) {
+      started = simulation::started(loaded->experiment, world, starts);
+      world.restart(*started);
+      changes = starts.size();
+    }
     for (const Port& port : world.settable()) {
       inputs.emplace(port.trail, *port.value);
       if (is_momentary(port.trail)) buttons.push_back(port);
@@ -35,12 +41,13 @@ struct LiveRun::Track {
       return value.momentary && value.trail == trail;
     });
   }
-  const Experiment& experiment() const { return loaded->experiment; }
+  const Experiment& experiment() const { return started ? *started : loaded->experiment; }
   std::int64_t step() const { return world.state().step; }
 
   Loaded loaded;
   std::vector<std::string> overrides;
   World world;
+  std::optional<Experiment> started;  ///< what it starts from, where that is not the file's
   std::unordered_map<std::string, double> inputs;  ///< what may be set, as the file gives it
   std::vector<Port> buttons;                       ///< that come up by themselves
   std::size_t size = 0;                            ///< of its state
@@ -60,6 +67,8 @@ std::string problem_of_text(const std::string& trail, const std::string& value) 
   if (value.empty()) return fmt::format("`{}` takes a value", trail);
   return breaks(trail) || breaks(value) ? "a change is one line" : "";
 }
+
+bool is_of_window(const std::string& trail) { return trail.starts_with("Simulator."); }
 
 std::string difference(const std::vector<StateSection>& before,
                        const std::vector<StateSection>& after) {
@@ -107,6 +116,11 @@ void check_times(const std::vector<Change>& script, double deltat) {
 
 LiveRun::LiveRun(Load load, LiveRunRequest request, std::vector<Change> script)
     : load_(std::move(load)), request_(std::move(request)), script_(std::move(script)) {
+  for (; scripted_ < script_.size(); ++scripted_) {
+    std::optional<StartValue> start = start_value_of(script_[scripted_]);
+    if (!start) break;
+    starts_.push_back(std::move(*start));
+  }
   track_ = make_track({});
   check_times(script_, experiment().deltat);
   files_ = open_files(*track_);
@@ -147,7 +161,7 @@ std::unique_ptr<LiveRun::Track> LiveRun::make_track(const std::vector<std::strin
   std::string problem;
   Loaded from = loaded(overrides, problem);
   if (!from) throw ExperimentError(problem);
-  return std::make_unique<Track>(std::move(from), overrides);
+  return std::make_unique<Track>(std::move(from), overrides, starts_);
 }
 
 /// The world of `track` under an override more, where its numbers stand; none where that cannot be.
@@ -161,7 +175,7 @@ std::unique_ptr<LiveRun::Track> LiveRun::edited(Track& track, const std::string&
     std::vector<double> numbers(track.world.state_size());
     Loaded from = loaded(overrides, problem);
     if (!from) return nullptr;
-    auto next = std::make_unique<Track>(std::move(from), std::move(overrides));
+    auto next = std::make_unique<Track>(std::move(from), std::move(overrides), starts_);
     const std::string why =
         why_not_alike(track.world, next->world, track.experiment(), next->experiment());
     if (!why.empty()) {
@@ -215,6 +229,9 @@ void LiveRun::begin_take() {
   newest_ = 0;
   last_ = {};
   start_ = {};
+  std::vector<Change> changes;
+  for (const StartValue& value : starts_) changes.push_back(change_of(value));
+  log(changes);
   const std::string& trail = files_->first_not_finite();
   if (trail.empty())
     files_->row(0, track_->world.state().time);
@@ -286,22 +303,59 @@ std::string LiveRun::reset() {
   const auto from = std::make_shared<const LoadedExperiment>(std::move(*fresh));
   std::unique_ptr<Track> track;
   try {
-    track = std::make_unique<Track>(from, std::vector<std::string>());
+    track = std::make_unique<Track>(from, std::vector<std::string>(), std::span<StartValue>());
     check_run_files(from->experiment, track->world.ports(), files_of(*from));
   } catch (const ExperimentError& error) {
     return error.what();
   }
+  loaded_.assign(1, {{}, from});
+  starts_.clear();
+  begin_take(std::move(track));
+  return "";
+}
+
+std::string LiveRun::start_from(std::span<const StartValue> values) {
+  const std::vector<std::string> overrides = track_->overrides;
+  std::vector<PortValue> inputs;
+  std::vector<StartValue> starts = present_pose(track_->loaded->experiment, world().state());
+  starts = merged(std::move(starts), values);
+  std::swap(starts_, starts);
+  std::unique_ptr<Track> track;
+  try {
+    track = make_track({});
+  } catch (const ExperimentError& error) {
+    starts_ = std::move(starts);
+    return error.what();
+  }
+  // What the window itself holds, a pull, is not of the run. A port of the engine hides one of the file.
+  std::set<std::string> seen;
+  for (const Port& port : world().settable()) {
+    const auto own = track_->inputs.find(port.trail);
+    const bool is_own = seen.insert(port.trail).second && !is_of_window(port.trail);
+    if (is_own && own != track_->inputs.end() && own->second != *port.value)
+      inputs.push_back({port.trail, *port.value});
+  }
+  begin_take(std::move(track));
+  for (const std::string& setting : overrides) {
+    const std::size_t end = setting.find('=');
+    if (std::string problem = edit(setting.substr(0, end), setting.substr(end + 1));
+        !problem.empty())
+      return problem;
+  }
+  return inputs.empty() ? "" : set(inputs);
+}
+
+/// Of a world at its beginning, in the place of the present one.
+void LiveRun::begin_take(std::unique_ptr<Track> track) {
   files_.reset();
   rewriting_.reset();
   files_ = open_files(*track);
   track_ = std::move(track);
-  loaded_.assign(1, {{}, from});
   script_.clear();
   scripted_ = 0;
   ++generation_;
   ++take_;
   begin_take();
-  return "";
 }
 
 void LiveRun::prepare_change() {
@@ -317,6 +371,9 @@ void LiveRun::log(std::span<const Change> changes) {
 void LiveRun::make_scripted_changes() {
   for (; scripted_ < script_.size() && script_[scripted_].step == present(); ++scripted_) {
     const Change& change = script_[scripted_];
+    if (start_value_of(change))
+      throw ChangesError(fmt::format("line {}: what a run starts from stands before other changes",
+                                     line_of_change(scripted_)));
     if (const std::string problem = edit(change.trail, change.value); !problem.empty())
       throw ChangesError(fmt::format("line {}: {}", line_of_change(scripted_), problem));
   }

@@ -13,6 +13,7 @@
 
 #include "simulation/run/changes.h"
 #include "simulation/run/run_files.h"
+#include "simulation/run/start_values.h"
 #include "simulation/run/world.h"
 
 namespace hookpoint::simulation {
@@ -55,6 +56,7 @@ class LiveRun {
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
 
+  /// As the file and the edits have it, with the initial state that the take started from.
   const Experiment& experiment() const;
   World& world();
   const World& world() const;
@@ -75,6 +77,11 @@ class LiveRun {
   /// A field of the file, `value` as --set takes it; the world continues from where it is under the
   /// new constants. "" or what is wrong.
   std::string edit(const std::string& trail, const std::string& value);
+  /// Starts the run again at time 0, with edited fields and inputs as they are now: from the present pose at rest, with `values` in it. A new take, whose changes begin
+  /// with what differs from the file. "" or what is wrong; the run then continues as it was.
+  std::string start_from(std::span<const StartValue> values);
+  /// What the take started from instead of the file's initial state.
+  const std::vector<StartValue>& starts() const { return starts_; }
   /// To time 0 of the file as it now stands, without any change: a new take. "" or what is wrong;
   /// the run then continues as it was.
   std::string reset();
@@ -128,6 +135,7 @@ class LiveRun {
   RunFilesRequest files_of(const LoadedExperiment& loaded) const;
   std::unique_ptr<RunFiles> open_files(Track& track) const;
   void begin_take();
+  void begin_take(std::unique_ptr<Track> track);
   bool writes() const { return files_ != nullptr && rewriting_ == nullptr; }
   std::int64_t present() const { return world().state().step; }
   void prepare_change();
@@ -147,6 +155,7 @@ class LiveRun {
   std::size_t scripted_ = 0;  ///< changes of the script that were made
   std::vector<std::pair<std::vector<std::string>, Loaded>> loaded_;  ///< by their overrides
   ChangeLog log_;
+  std::vector<StartValue> starts_;  ///< of the take: the first of its changes
   std::vector<std::size_t> edits_;  ///< those of the changes that are of a field, in order
   std::unique_ptr<Track> track_;    ///< what is shown and stepped
   std::unique_ptr<Track>

@@ -69,7 +69,6 @@ void World::announce(std::int64_t steps) {
   if (!inputs_are_driven(experiment_)) engine_->announce(steps);
 }
 
-/// With the gains of this moment, which sliders may have moved.
 Experiment World::as_it_stands() const {
   Experiment now = experiment_;
   now.components = signals_.as_held(std::move(now.components));
@@ -90,7 +89,7 @@ bool World::update(Signals& signals) const {
 StepStatus World::status_of_signals(bool finite) {
   if (finite) return {};
   StepStatus status = stopped_by_port(engine_->state().time, signals_.first_not_finite());
-  const std::string controllers = controller_advice(stability_bound(experiment_));
+  const std::string controllers = controller_advice(stability_bound(as_it_stands()));
   if (!controllers.empty()) status.advice = "it is no longer a finite number: " + controllers;
   return status;
 }

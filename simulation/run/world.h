@@ -59,6 +59,9 @@ class World {
   bool sampled_after(std::int64_t step, const Port& port) const {
     return signals_.sampled_after(step, port.value);
   }
+  /// The experiment with the values that its components have at this moment, which sliders may have
+  /// moved.
+  Experiment as_it_stands() const;
   /// `World.running` and `Simulator.quit`.
   bool running() const { return signals_.running(); }
   bool quit() const { return signals_.quit(); }
@@ -94,7 +97,6 @@ class World {
   Resumable& resumable() const;
   std::vector<StateSection> layout_of(const Saveable& engine) const;
   void save(const Saveable& engine, std::span<double> numbers) const;
-  Experiment as_it_stands() const;
   /// Brings `signals` to the engine's present state. False where a number is no longer finite.
   bool update(Signals& signals) const;
   /// Why the run cannot continue where a number is not finite.

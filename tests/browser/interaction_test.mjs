@@ -155,3 +155,45 @@ test("a saved file is loaded anew, and the camera stays; a wrong one is told of,
   assert.ok(Math.abs((await read(page, "lab.block.position.z")) - (0.05 - depth)) < 1e-6);
   assert.deepEqual(page.problems, []);
 });
+
+test("a slider of the state starts the run again from there, paused", async (t) => {
+  const { page } = await open(t, block());
+  await eventually("it runs", async () => (await time(page)) > 0.1);
+  await page.keyboard.press("t");
+  await page.getByRole("tab", { name: "State" }).click();
+  const height = page.getByRole("textbox", { name: "z, number" });
+  await height.fill("0.5");
+  await height.press("Enter");
+  await eventually("it is there", async () => (await read(page, "lab.block.base.location.z")) === 0.5);
+  assert.equal(await time(page), 0);
+  const yaw = page.getByRole("textbox", { name: "yaw, number" });
+  await yaw.fill("90");
+  await yaw.press("Enter");
+  await eventually("it is turned", async () => Math.abs((await read(page, "lab.block.base.orientation.z")) - Math.SQRT1_2) < 1e-9);
+  assert.equal(await read(page, "lab.block.base.location.z"), 0.5);
+  assert.ok(await height.isVisible()); // the page is the same one
+  for (let i = 0; i < 3; ++i) await page.getByRole("button", { name: "one step (right arrow)" }).click();
+  await eventually("it falls", async () => Math.abs((await read(page, "lab.block.base.location.z")) - (0.5 - 9.81e-6 * 6)) < 1e-12);
+  assert.deepEqual(page.problems, []);
+});
+
+test("a slider is hatched where its gain makes the step unstable", async (t) => {
+  const { page } = await open(t, `
+World lab { gravity = 0; deltat = 1 ms;
+  Robot arm { Base.fixed {} Chain c { Link l { mass = 1; center_of_mass = 0.5,0,0; inertia = 0,0,0,0,0,0; } } } }
+Controller.PD pd { pconstant = 100; dconstant = 10; Wire FROM lab.arm.c.l.angle TO current; Wire FROM output TO lab.arm.c.l.torque; }
+Window {
+  Window.grob camera { drawer = lab; }
+  Valuator.Slider damping { range = 10,1000; Wire TO pd.dconstant; }
+  Valuator.Slider aim { range = -1,1; Wire TO pd.goal; }
+}`);
+  const slider = widget(page, "damping");
+  await eventually("it is marked", async () => ((await slider.getAttribute("title")) ?? "") !== "");
+  // 2 x 0.25 kg m^2 / 1 ms - 1 ms x 100 / 2 = 499.95
+  assert.match(await slider.getAttribute("title"), /^the step of 0\.001 s is unstable from (499|500)\.?\d* to 1000/);
+  const mark = page.locator(".slider .unstable span");
+  assert.equal(await mark.count(), 1);
+  const [whole, part] = [await slider.boundingBox(), await mark.boundingBox()];
+  assert.ok(Math.abs(part.width / whole.width - 0.5) < 0.05, `${part.width} of ${whole.width}`);
+  assert.deepEqual(page.problems, []);
+});

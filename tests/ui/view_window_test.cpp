@@ -157,6 +157,56 @@ TEST_F(ViewWindow, WhatIsReadAfterASetIsWhatWasSet) {
   }
 }
 
+TEST_F(ViewWindow, StartsAgainFromAPoseAndWaitsThere) {
+  open(recorded);
+  ask("pause");
+  step(50);
+  EXPECT_EQ(ask("start_from",
+                "\"values\": {\"w.block.base.location\": [0, 0, 2], "
+                "\"w.block.base.location.x\": 0.25}")["ok"],
+            "true");
+  EXPECT_EQ(read("w.time"), 0.);
+  EXPECT_EQ(read("w.block.base.location.x"), 0.25);
+  EXPECT_EQ(read("w.block.base.location.z"), 2.);
+  step(100);
+  EXPECT_NEAR(read("w.block.base.location.z"), 2. - 9.81e-6 * 100. * 101. / 2., 1e-12);
+  EXPECT_NE(ask("start_from", "\"values\": {}")["error"].find("initial state"), std::string::npos);
+  EXPECT_NE(ask("start_from", "\"values\": {\"w.block.base.location\": [0, \"high\"]}")["error"],
+            "");
+  EXPECT_NE(ask("start_from", "\"values\": {\"w.block.base.location\": [0, 1]}")["error"].find(
+                "takes 3 numbers"),
+            std::string::npos);
+  say("quit");
+  EXPECT_EQ(ends(), 0) << program->err();
+  expect_repeats();
+}
+
+/// A link of moment of inertia J, spring k and damper c by a PD controller that takes differences:
+/// the step h is stable up to c = 2 J / h - h k / 2, here 2 x 0.25 / 1 ms - 1 ms x 100 / 2.
+TEST_F(ViewWindow, SlidersHaveMarksWhereTheStepIsUnstable) {
+  place.file("arm.hook", R"(
+World w { gravity = 0; deltat = 1 ms;
+  Robot arm { Base.fixed {} Chain c { Link l { mass = 1; center_of_mass = 0.5, 0, 0; inertia = 0, 0, 0, 0, 0, 0; } } } }
+Controller.PD pd { pconstant = 100; dconstant = 10; Wire FROM w.arm.c.l.angle TO current; Wire FROM output TO w.arm.c.l.torque; }
+Window {
+  Valuator.Slider damping { range = 10, 1000; Wire TO pd.dconstant; }
+  Valuator.Slider aim { range = -1, 1; Wire TO pd.goal; }
+})");
+  open({}, "arm.hook");
+  ask("pause");
+  const double most = 2. * 0.25 / 1e-3 - 1e-3 * 100. / 2.;
+  Leaves answer = ask("unstable");
+  EXPECT_EQ(answer["unstable[0].port"], "damping.value");
+  EXPECT_NEAR(std::stod(answer["unstable[0].from"]), most, 990. / 2048. + 1e-9);
+  EXPECT_EQ(std::stod(answer["unstable[0].to"]), 1000.);
+  EXPECT_FALSE(answer.contains("unstable[1].port"));
+  // A stiffer spring leaves less.
+  EXPECT_EQ(ask("edit", "\"trail\": \"pd.pconstant\", \"value\": \"400000\"")["ok"], "true");
+  answer = ask("unstable");
+  EXPECT_NEAR(std::stod(answer["unstable[0].from"]), most - 1e-3 * 399900. / 2.,
+              990. / 2048. + 1e-9);
+}
+
 TEST_F(ViewWindow, WhatHasEndedIsNotChanged) {
   open({"--for", "0.1 s", "--out", "live", "--record", "w.block.base.*"});
   ask("speed", "\"factor\": 0");

@@ -5,6 +5,7 @@ import type { LayoutStore } from "./layout.ts";
 import type { Changed, Description, PlotTrace, PlotWidget, Snapshot } from "./protocol.ts";
 import type { Seeker } from "./seeker.ts";
 import type { SharedTime } from "./shared_time.ts";
+import type { SliderMarks } from "./slider_marks.ts";
 import type { Setter, WatchedValues } from "./values.ts";
 
 /// A part of the page that has been made. What it holds goes with `dispose`.
@@ -31,6 +32,8 @@ export interface Context {
   /// The stretch that the plots show and the time under the pointer.
   time: SharedTime;
   seeker: Seeker;
+  /// Where along sliders the step is unstable.
+  marks: SliderMarks;
   layout: LayoutStore;
   /// How far long work has come, from 0 to 1.
   onProgress(listener: (work: string, done: number) => void): () => void;

@@ -7,7 +7,7 @@ export interface Layout {
   side: number | null; // width of the panel at the side [CSS pixels]
   columns: number | null; // of plots; null: as many as have room
   heights: Record<string, number>; // of plots, by trail [CSS pixels]
-  over: string[]; // trails of plots that lie over the camera
+  over: Record<string, boolean>; // whether a plot lies over a camera, by its trail, where the user chose
 }
 
 export const leastHeight = 60;
@@ -38,7 +38,7 @@ export function parseLayout(text: string | null): Layout {
     columns: count === null ? null : Math.min(mostColumns, Math.round(count)),
     heights: Object.fromEntries(Object.entries(typeof heights === "object" && heights !== null ? heights : {})
       .flatMap(([trail, height]) => (positive(height) === null ? [] : [[trail, Math.max(leastHeight, height as number)]]))),
-    over: Array.isArray(over) ? over.filter((trail) => typeof trail === "string") : [],
+    over: Object.fromEntries(Object.entries(typeof over === "object" && over !== null ? over : {}).filter(([, lies]) => typeof lies === "boolean")) as Record<string, boolean>,
   };
 }
 
@@ -107,24 +107,38 @@ function isNamed(widget: Widget): boolean {
   return !widget.trail.replace(/#\d+$/, "").endsWith(widget.type);
 }
 
-function camerasOf(widget: Widget): Widget[] {
+export function camerasOf(widget: Widget): Widget[] {
   return widget.type === "Window" ? widget.children.flatMap(camerasOf) : widget.type === "Window.grob" ? [widget] : [];
 }
 
-/// The sizes that give this layout when they stand in the file.
-export function sizesFor(layout: Layout, windows: Widget[], subjects: boolean): { trail: string; field: "width" | "height"; pixels: number }[] {
-  const sizes: { trail: string; field: "width" | "height"; pixels: number }[] = [];
+export interface LayoutField {
+  trail: string; // of an object
+  field: "width" | "height" | "overlay";
+  value: string;
+}
+
+/// Whether a plot lies over a camera: what the user chose, or else what the file says.
+export function liesOver(layout: Layout, plot: { trail: string; over?: boolean }): boolean {
+  return layout.over[plot.trail] ?? plot.over ?? false;
+}
+
+/// The fields that give this layout when they stand in the file.
+export function fieldsFor(layout: Layout, windows: Widget[], subjects: boolean): LayoutField[] {
+  const fields: LayoutField[] = [];
   const scene = windows.find(hasCamera);
   if (layout.share !== null && scene !== undefined) {
     const wider = (widthBeside(windows, subjects) * layout.share) / (1 - layout.share) - widthOfScene(scene);
     // A camera's width counts only in a window without one.
     const sized = isNamed(scene) ? scene : scene.width ? undefined : camerasOf(scene).find(isNamed);
-    if (sized !== undefined) sizes.push({ trail: sized.trail, field: "width", pixels: Math.max(1, Math.round(widthOfScene(sized) + wider)) });
+    if (sized !== undefined) fields.push({ trail: sized.trail, field: "width", value: String(Math.max(1, Math.round(widthOfScene(sized) + wider))) });
   }
   const plotsOf = (widget: Widget): Widget[] => (widget.type === "Window" ? widget.children.flatMap(plotsOf) : hasPlot(widget) ? [widget] : []);
   for (const plot of windows.flatMap(plotsOf).filter(isNamed)) {
     const height = layout.heights[plot.trail];
-    if (height !== undefined) sizes.push({ trail: plot.trail, field: "height", pixels: Math.round(height) });
+    if (height !== undefined) fields.push({ trail: plot.trail, field: "height", value: String(Math.round(height)) });
+    const camera = windows.flatMap(camerasOf).find(isNamed);
+    if (camera !== undefined && plot.type === "Plot" && plot.overlay === null && layout.over[plot.trail] === true)
+      fields.push({ trail: plot.trail, field: "overlay", value: camera.trail });
   }
-  return sizes;
+  return fields;
 }

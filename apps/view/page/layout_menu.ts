@@ -2,7 +2,7 @@
 import { attempt, type Context } from "./context.ts";
 import { download, element, freshId } from "./dom.ts";
 import { icon } from "./icons.ts";
-import { mostColumns, sizesFor } from "./layout.ts";
+import { fieldsFor, mostColumns } from "./layout.ts";
 
 export function makeLayoutMenu(context: Context): HTMLElement {
   const { layout, description, connection } = context;
@@ -18,12 +18,11 @@ export function makeLayoutMenu(context: Context): HTMLElement {
     made.addEventListener("click", press);
     return made;
   };
-  const save = button("save as .hook", "the file with the sizes of its windows as they are here", () => attempt(context, (async () => {
-    const sizes = sizesFor(layout.now, description.windows, description.subjects.length > 1);
-    if (layout.now.share !== null && !sizes.some((each) => each.field === "width"))
+  const save = button("save as .hook", "the file with its windows arranged as they are here", () => attempt(context, (async () => {
+    const fields = fieldsFor(layout.now, description.windows, description.subjects.length > 1);
+    if (layout.now.share !== null && !fields.some((each) => each.field === "width"))
       context.notice("warning", "the width of the scene is not saved: give its Window a name in the file");
-    for (const { trail, field, pixels } of sizes)
-      await connection.request("edit", { trail: `${trail}.${field}`, value: String(pixels) });
+    for (const { trail, field, value } of fields) await connection.request("edit", { trail: `${trail}.${field}`, value });
     const patch = await connection.request("patch", {});
     download(patch.name, new Blob([patch.text], { type: "text/plain" }));
   })()));

@@ -14,6 +14,7 @@ import { makeRunPage } from "./run_page.ts";
 import { Seeker } from "./seeker.ts";
 import { Branches } from "./series.ts";
 import { SharedTime } from "./shared_time.ts";
+import { SliderMarks } from "./slider_marks.ts";
 import { makeStudyPage, type StudyPage } from "./study.ts";
 import type { StudiesDescription } from "./study/protocol.ts";
 import { startTheme } from "./theme.ts";
@@ -70,7 +71,9 @@ function hear(message: Told): void {
     case "notice": return notices.add(message.level, message.text);
     case "ended": return notices.setEnded(message.reason);
     case "working": return progresses.tell(message.of, message.done);
-    case "changed": return changes.tell(message);
+    case "changed":
+      context?.marks.changed();
+      return changes.tell(message);
     case "row":
     case "figure":
     case "progress":
@@ -99,10 +102,15 @@ function describe(description: Description): void {
   announce(description);
   branches = new Branches();
   newest = null;
-  const text = JSON.stringify(description);
+  // Where the run starts from another pose, it is the same file.
+  const text = JSON.stringify(description, (key, value: unknown) => (key === "start" ? undefined : value));
   if (text === described && page !== null) {
+    context?.description.scene.bodies.forEach((body, index) => {
+      Object.assign(body, { start: description.scene.bodies[index].start });
+    });
     // The same run, or one of the same file: the page stays as it is, its records are another's.
     branchings.tell(-Infinity);
+    context?.marks.changed();
     values.askAnew();
     return;
   }
@@ -143,6 +151,7 @@ function makeContext(description: Description): Context {
     onChanged: changes.add,
     time: new SharedTime(),
     seeker,
+    marks: new SliderMarks(connection),
     layout: new LayoutStore(`hookpoint.layout ${description.title}`, localStorage),
     onProgress: progresses.add,
     resets: new Listeners(),

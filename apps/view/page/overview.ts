@@ -27,6 +27,11 @@ export function pitch(w: number, x: number, y: number, z: number): number {
   return Math.asin(Math.min(1, Math.max(-1, 2 * (w * y - z * x)))) * degrees;
 }
 
+/// The heading: the turn about z.
+export function yaw(w: number, x: number, y: number, z: number): number {
+  return Math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)) * degrees;
+}
+
 export function plotsOf(context: Pick<Context, "description">, ports: Ports): OverviewPlot[] {
   const { bodies } = context.description.scene;
   const mobile = firstMobileBase(bodies);

@@ -68,6 +68,7 @@ export interface Body {
   center_of_mass: Vector3;
   inertia: [number, number, number, number, number, number]; // Ixx Iyy Izz Ixy Ixz Iyz
   joint: "revolute" | "prismatic" | null; // about, or along, the body's own z through its origin
+  limits?: [number | null, number | null]; // of the joint [rad or m]
   material: number | null; // of an obstacle
   shapes: Shape[];
   points: Vector3[];
@@ -267,6 +268,13 @@ export interface Change {
   value: string;
 }
 
+/// Of a slider's port, where controllers that it moves make the step unstable.
+export interface UnstableStretch {
+  port: string;
+  from: number;
+  to: number;
+}
+
 /// What each request takes and what its answer holds. `trace` answers with a binary message.
 export interface Requests {
   set: { with: { values: Record<string, number> }; answer: object };
@@ -280,10 +288,12 @@ export interface Requests {
   speed: { with: { factor: number }; answer: object };
   seek: { with: { time: number }; answer: object };
   reset: { with: object; answer: object };
+  start_from: { with: { values: Record<string, number | number[]> }; answer: object };
   edit: { with: { trail: string; value: string }; answer: object };
   fields: { with: object; answer: { fields: FieldDescription[] } };
   changes: { with: object; answer: { changes: Change[] } };
   patch: { with: object; answer: { name: string; text: string } };
+  unstable: { with: object; answer: { unstable: UnstableStretch[] } };
   picture: { with: { name: string; png: string }; answer: { path: string } };
   open: OpenRequest;
   quit: { with: object; answer: object };

@@ -1,5 +1,5 @@
 // What stands beside a file's own windows, or beside the camera of a file without any: what its robot is judged by, all values, all
-// parameters, the selected body.
+// parameters, the pose to start from, the selected body.
 import type { Context, Part } from "./context.ts";
 import { element } from "./dom.ts";
 import { makeFieldEditor } from "./field_editor.ts";
@@ -7,12 +7,14 @@ import { iconButton } from "./icons.ts";
 import { makeInspector } from "./inspector.ts";
 import { makeResizeHandle } from "./resize_handle.ts";
 import { makeOverview } from "./overview.ts";
+import { makeStateEditor } from "./state_editor.ts";
 import { makeTrailTree } from "./trail_tree.ts";
 
 const tabs = {
   overview: { name: "Overview", make: makeOverview },
   values: { name: "Values", make: makeTrailTree },
   parameters: { name: "Parameters", make: makeFieldEditor },
+  state: { name: "State", make: makeStateEditor },
   body: { name: "Body", make: makeInspector },
 };
 type Tab = keyof typeof tabs;

@@ -46,6 +46,7 @@ void LiveSession::show() {
   for (const std::string& trail : shown.plotted) traces_.add(trail);
   look_up_plotted();
   files_.watch(std::move(shown.sources));
+  marks_.show(std::move(shown.sliders));
   last_step_ = request_.last_step(subjects_.run());
   hold_step_.reset();
   if (shown.holds && !last_step_) hold_step_ = subjects_.run().last_step();
@@ -80,6 +81,7 @@ bool LiveSession::run(const std::atomic<bool>& stop) {
   next_snapshot_ = begun_ = Clock::now();
   while (!stop && !quit_) {
     answer_requests();
+    marks_.answer_finished(audience_);
     if (files_.written()) reload();
     const auto until = std::min(next_snapshot_, Clock::now() + Pace::slice);
     if (stepping_)
@@ -307,6 +309,22 @@ std::string LiveSession::perform(const Seek& command) {
 
 std::string LiveSession::perform(const Reset& /*command*/) {
   if (std::string problem = subjects_.reset(); !problem.empty()) return problem;
+  begin_again();
+  return "";
+}
+
+/// A state that is set by hand is looked at before it moves.
+std::string LiveSession::perform(const StartFrom& command) {
+  std::vector<simulation::StartValue> values;
+  for (const auto& [trail, numbers] : command.values) values.push_back({trail, numbers});
+  if (std::string problem = subjects_.start_from(values); !problem.empty()) return problem;
+  paused_ = true;
+  begin_again();
+  return "";
+}
+
+/// The run is at time 0 of a new take.
+void LiveSession::begin_again() {
   ended_ = failed_ = released_ = false;
   pace_.restart();
   traces_.clear();
@@ -314,7 +332,6 @@ std::string LiveSession::perform(const Reset& /*command*/) {
   take_ = subjects_.run().take();
   show();
   sample();
-  return "";
 }
 
 std::string LiveSession::perform(const EditField& command) {
@@ -386,6 +403,10 @@ void LiveSession::reply(const PageRequest& request, const AskPatch& /*command*/)
   audience_.answer(request, [&](JsonWriter& json) {
     json.member("name", file->first).member("text", file->second);
   });
+}
+
+void LiveSession::reply(const PageRequest& request, const AskUnstable& /*command*/) {
+  marks_.request(request, subjects_.run().world().as_it_stands(), audience_);
 }
 
 void LiveSession::reply(const PageRequest& request, const KeepPicture& command) {

@@ -14,6 +14,7 @@
 #include "apps/view/session/file_watch.h"
 #include "apps/view/session/pace.h"
 #include "apps/view/session/shown.h"
+#include "apps/view/session/slider_marks.h"
 #include "apps/view/session/subjects.h"
 #include "apps/view/session/traces.h"
 #include "apps/view/widgets/file_fields.h"
@@ -61,6 +62,7 @@ class LiveSession {
   void sample();
   void end(const std::string& reason, bool failed);
   void log_end();
+  void begin_again();
   void publish();
   void tell_changes();
   Clock::time_point next_wake() const;
@@ -73,6 +75,7 @@ class LiveSession {
   std::string perform(const SetSpeed& command);
   std::string perform(const Seek& command);
   std::string perform(const Reset& command);
+  std::string perform(const StartFrom& command);
   std::string perform(const EditField& command);
   std::string perform(const Quit& command);
   // What holds more than that, or takes longer.
@@ -81,6 +84,7 @@ class LiveSession {
   void reply(const PageRequest& request, const ListFields& command);
   void reply(const PageRequest& request, const ListChanges& command);
   void reply(const PageRequest& request, const AskPatch& command);
+  void reply(const PageRequest& request, const AskUnstable& command);
   void reply(const PageRequest& request, const KeepPicture& command);
 
   Subjects& subjects_;
@@ -89,6 +93,7 @@ class LiveSession {
   Pace pace_;
   Traces traces_;
   FileWatch files_;
+  SliderMarks marks_;
   std::vector<const double*> plotted_;  ///< one a column of the traces; null: no port
   std::vector<double> sample_;
   std::optional<std::int64_t> last_step_;

@@ -155,6 +155,20 @@ std::string Subjects::reset() {
   return "";
 }
 
+std::string Subjects::start_from(std::span<const simulation::StartValue> values) {
+  if (std::string problem = run().start_from(values); !problem.empty()) return problem;
+  const std::vector<simulation::StartValue>& all = run().starts();
+  std::vector<std::string> stopped(subjects_.size());
+  for (std::size_t i = 1; i < subjects_.size(); ++i) stopped[i] = subjects_[i].run->start_from(all);
+  begin();
+  for (std::size_t i = 1; i < subjects_.size(); ++i) {
+    if (stopped[i].empty()) continue;
+    subjects_[i].stopped = subjects_[i].name + " cannot start from there: " + stopped[i];
+    add_note(subjects_[i].stopped);
+  }
+  return "";
+}
+
 std::string Subjects::seek(std::int64_t step) {
   if (const std::string why = run().no_history(); !why.empty()) return why;
   step = std::clamp(step, first_step(), run().newest());

@@ -52,6 +52,8 @@ class Subjects {
   std::string set(std::span<const simulation::PortValue> values);
   std::string edit(const std::string& trail, const std::string& value);
   std::string reset();
+  /// All from the same pose (LiveRun::start_from); one beside the run that cannot, stops there.
+  std::string start_from(std::span<const simulation::StartValue> values);
   /// Shows `step`, which the history still has; those beside it that cannot go back are left out
   /// until all are back at the newest. "" or what is wrong.
   std::string seek(std::int64_t step);

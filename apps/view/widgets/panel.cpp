@@ -211,9 +211,9 @@ class PanelBuilder {
 
   std::string overlaid(const Object& object) {
     const Object* below = object.object(widget_field::overlay);
-    if (below->type != "Plot" || below == &object)
+    if (below->type == "Plot.3D" || below == &object)
       diagnostics_.error(object.find(widget_field::overlay)->position,
-                         "a Plot is laid over another Plot");
+                         "a Plot is laid over another Plot or a camera");
     return trails_.at(below);
   }
 

@@ -67,7 +67,7 @@ struct PlotShown {
   std::vector<Trace> traces;
   std::optional<Range> range, x_range;
   std::optional<double> window;        ///< [s]; none: the whole run
-  std::optional<std::string> overlay;  ///< trail of the plot over which this one is laid
+  std::optional<std::string> overlay;  ///< trail of the plot or camera over which this one is laid
 };
 struct Plot3dShown {
   std::vector<Trace> traces;

@@ -26,6 +26,8 @@ class BodyFiller {
       SceneBody& body = add(at.link.body, index);
       body.parent = static_cast<int>(base + static_cast<std::ptrdiff_t>(at.parent));
       body.joint = at.link.joint;
+      body.lower_limit = at.link.lower_limit;
+      body.upper_limit = at.link.upper_limit;
     });
     const simulation::Pose start{robot.location, robot.orientation};
     auto body = begin;
@@ -133,6 +135,15 @@ class SceneWriter {
     } else {
       json_.null();
     }
+    json_.key("limits").begin_array();
+    for (const std::optional<double>& limit : {body.lower_limit, body.upper_limit}) {
+      if (limit) {
+        json_.value(*limit);
+      } else {
+        json_.null();
+      }
+    }
+    json_.end_array();
     json_.key("material");
     if (body.material) {
       json_.value(*body.material);

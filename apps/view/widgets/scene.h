@@ -15,10 +15,11 @@ namespace hookpoint::view {
 
 /// A body of a robot, an obstacle, or ground that moves, which has no shape of its own.
 struct SceneBody {
-  std::string trail;                           ///< from the top
-  int robot = -1;                              ///< -1: no robot carries it
-  int parent = -1;                             ///< of the scene's bodies; -1: none
-  std::optional<simulation::JointKind> joint;  ///< that carries it; none of a base
+  std::string trail;                               ///< from the top
+  int robot = -1;                                  ///< -1: no robot carries it
+  int parent = -1;                                 ///< of the scene's bodies; -1: none
+  std::optional<simulation::JointKind> joint;      ///< that carries it; none of a base
+  std::optional<double> lower_limit, upper_limit;  ///< of its joint [rad or m]
   simulation::MassSpec mass;
   std::optional<int> material;  ///< of an obstacle: index into Scene::materials
   std::vector<simulation::ShapeSpec> shapes;

@@ -196,11 +196,14 @@ ClassSchema plot_class() {
   using namespace widget_field;
   ClassSchema plot = widget_class("Plot", "numbers of the run over time, or over another", "title");
   plot.children = {"Trace"};
-  append(plot.fields,
-         {words_field(show, 100, "trails of ports over time, in short for a Trace each"),
-          range_field(range, "least and greatest value along y"),
-          range_field(x_range, "least and greatest value along x"), history_field(),
-          object_field(overlay, "Plot", "a plot over which this one is laid, on the same axes")});
+  append(
+      plot.fields,
+      {words_field(show, 100, "trails of ports over time, in short for a Trace each"),
+       range_field(range, "least and greatest value along y"),
+       range_field(x_range, "least and greatest value along x"), history_field(),
+       object_field(overlay, "Plot|Window.grob",
+                    "a plot over which this one is laid, on the same axes, or a camera over whose "
+                    "picture it is")});
   return plot;
 }
 

@@ -54,6 +54,19 @@ class Members {
         values.emplace_back(key, number_of(key, value));
     return values;
   }
+  /// The same where each is a number or a list of them.
+  std::vector<std::pair<std::string, std::vector<double>>> lists_of_numbers(
+      std::string_view name) const {
+    std::vector<std::pair<std::string, std::vector<double>>> values;
+    const text::JsonValue* found = message_.member(name);
+    if (found == nullptr) return values;
+    for (const auto& [key, value] : found->members()) {
+      std::vector<double>& list = values.emplace_back(key, std::vector<double>()).second;
+      if (value.is_leaf()) list.push_back(number_of(key, value));
+      for (const text::JsonValue& item : value.items()) list.push_back(number_of(key, item));
+    }
+    return values;
+  }
 
  private:
   static double number_of(std::string_view name, const text::JsonValue& value) {
@@ -84,6 +97,13 @@ std::vector<std::string> trails_of(const Members& members) {
 Command set_ports(const Members& members) {
   SetPorts command{members.numbers("values")};
   if (command.values.empty()) throw Problem("`values` names no port: {\"pd1.goal\": 0.5}");
+  return command;
+}
+
+Command start_from(const Members& members) {
+  StartFrom command{members.lists_of_numbers("values")};
+  if (command.values.empty())
+    throw Problem("`values` names no port of the initial state: {\"w.arm.leg.link.angle\": 0.5}");
   return command;
 }
 
@@ -163,6 +183,7 @@ const std::map<std::string, Parse, std::less<>>& commands() {
       {"speed", set_speed},
       {"seek", [](const Members& m) -> Command { return Seek{m.number("time")}; }},
       {"reset", [](const Members&) -> Command { return Reset{}; }},
+      {"start_from", start_from},
       {"edit",
        [](const Members& m) -> Command {
          return EditField{m.text("trail"), m.text("value")};
@@ -170,6 +191,7 @@ const std::map<std::string, Parse, std::less<>>& commands() {
       {"fields", [](const Members&) -> Command { return ListFields{}; }},
       {"changes", [](const Members&) -> Command { return ListChanges{}; }},
       {"patch", [](const Members&) -> Command { return AskPatch{}; }},
+      {"unstable", [](const Members&) -> Command { return AskUnstable{}; }},
       {"picture", keep_picture},
       {"quit", [](const Members&) -> Command { return Quit{}; }},
       {"film_frame", [](const Members& m) -> Command { return AskFrame{index_of(m, "index")}; }},

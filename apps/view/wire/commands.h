@@ -43,6 +43,10 @@ struct Seek {
   double time = 0.;  ///< [s]
 };
 struct Reset {};
+/// Numbers of the initial state, one or those of a vector each, by their ports.
+struct StartFrom {
+  std::vector<std::pair<std::string, std::vector<double>>> values;
+};
 /// A field of the file, its value as `--set` takes it.
 struct EditField {
   std::string trail, value;
@@ -50,6 +54,8 @@ struct EditField {
 struct ListFields {};
 struct ListChanges {};
 struct AskPatch {};
+/// Where along sliders the step is unstable.
+struct AskUnstable {};
 struct KeepPicture {
   std::string name;  ///< of the file, without a folder
   std::string png;   ///< its bytes
@@ -73,9 +79,10 @@ struct FilmFailed {
   std::string text;
 };
 
-using Command = std::variant<SetPorts, ReadPorts, ListPorts, WatchPorts, AskTrace, Pause, Run,
-                             StepOn, SetSpeed, Seek, Reset, EditField, ListFields, ListChanges,
-                             AskPatch, KeepPicture, Quit, AskFrame, FilmPart, FilmEnd, FilmFailed>;
+using Command =
+    std::variant<SetPorts, ReadPorts, ListPorts, WatchPorts, AskTrace, Pause, Run, StepOn, SetSpeed,
+                 Seek, Reset, StartFrom, EditField, ListFields, ListChanges, AskPatch, AskUnstable,
+                 KeepPicture, Quit, AskFrame, FilmPart, FilmEnd, FilmFailed>;
 
 struct Request {
   /// As the page wrote it; none where the message was not read that far. The page's own number.

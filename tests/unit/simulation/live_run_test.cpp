@@ -277,6 +277,72 @@ TEST_F(LiveRunTest, AResetIsANewTake) {
   expect_repeats();
 }
 
+/// A drop from 0.2 m above the ground: free fall in steps of h, z - g h^2 n (n + 1) / 2.
+TEST_F(LiveRunTest, StartsFromAPoseThatIsSetByHandAndRepeats) {
+  start();
+  set("controls.north.value", 0.5);
+  to(100);
+  EXPECT_EQ(run->edit("w.clay.normal_stiffness", "10 kN/m"), "");
+  to(120);
+  const double x = (*this)["w.block.base.location.x"];
+  const std::uint64_t take = run->take();
+  EXPECT_EQ(
+      run->start_from(std::vector<simulation::StartValue>{{"w.block.base.location", {x, 0., 0.3}}}),
+      "");
+  EXPECT_GT(run->take(), take);
+  EXPECT_EQ(run->state().time, 0.);
+  EXPECT_EQ((*this)["w.block.base.location.z"], 0.3);
+  EXPECT_EQ((*this)["w.block.base.velocity.y"], 0.);
+  EXPECT_EQ((*this)["controls.north.value"], 0.5);
+  EXPECT_EQ(run->overrides(), std::vector<std::string>{"w.clay.normal_stiffness=10 kN/m"});
+  EXPECT_EQ(run->experiment().robots[0].location.z, 0.3);
+  to(100);
+  EXPECT_NEAR((*this)["w.block.base.location.z"], 0.3 - 9.81e-6 * 100. * 101. / 2., 1e-12);
+  // A second time, from where it is now; and from a past moment of that, with other changes.
+  EXPECT_EQ(run->start_from(std::vector<simulation::StartValue>{
+                {"w.block.base.orientation", {0.1, 0., 0.}}, {"w.block.base.location.x", {0.5}}}),
+            "");
+  EXPECT_EQ((*this)["w.block.base.location.x"], 0.5);
+  EXPECT_NEAR((*this)["w.block.base.location.z"], 0.3 - 9.81e-6 * 100. * 101. / 2., 1e-12);
+  EXPECT_NEAR((*this)["w.block.base.orientation.x"], std::sin(0.05), 1e-15);
+  Moment first;
+  run->save(first);
+  to(60);
+  set("controls.east.value", 3.);
+  to(90);
+  EXPECT_EQ(run->seek(first, 40), "");
+  set("controls.east.value", -2.);
+  to(600);
+  expect_repeats();
+  EXPECT_TRUE(
+      bytes("live", "changes.csv").starts_with("step,time [s],trail,value\n0,0,start:w.block."))
+      << bytes("live", "changes.csv");
+}
+
+TEST_F(LiveRunTest, RefusesAPoseThatCannotBeAndStaysAsItWas) {
+  start(
+      "World w { deltat = 1 ms; Robot block { Base.fixed {} Chain c { Link l { joint = revolute; "
+      "angle = 0.2; lower_limit = -1; upper_limit = 1; Shape.Box { dimensions = 1, .1, .1; mass = "
+      "1; } } } } Force late { body = block.c.l; } }");
+  to(10);
+  const double angle = (*this)["w.block.c.l.angle"];
+  const auto problem = [&](const std::string& trail, std::vector<double> values) {
+    return run->start_from(std::vector<simulation::StartValue>{{trail, std::move(values)}});
+  };
+  EXPECT_NE(problem("w.block.c.l.angle", {2.}).find("limit"), std::string::npos);
+  EXPECT_NE(problem("w.block.c.l.angle", {0., 1.}).find("takes 1 number"), std::string::npos);
+  EXPECT_NE(problem("w.block.c.l.torque", {0.}).find("not part of an initial state"),
+            std::string::npos);
+  EXPECT_NE(problem("w.block.c.k.angle", {0.}).find("w.block.c.l.angle"), std::string::npos);
+  EXPECT_EQ(run->state().step, 10);
+  EXPECT_EQ((*this)["w.block.c.l.angle"], angle);
+  EXPECT_TRUE(run->starts().empty());
+  EXPECT_EQ(problem("w.block.c.l.angle", {-0.5}), "");
+  EXPECT_EQ((*this)["w.block.c.l.angle"], -0.5);
+  EXPECT_EQ(run->reset(), "");
+  EXPECT_EQ((*this)["w.block.c.l.angle"], 0.2);
+}
+
 TEST_F(LiveRunTest, APeerIsSetAndPulledButNeitherEditedNorTakenBack) {
   std::string text = block;
   text.insert(text.find("gravity"), "engine = ode; ");
@@ -367,6 +433,21 @@ TEST_F(ChangesFile, SaysOnWhichLineSomethingIsWrong) {
     EXPECT_NE(result.err.find(message), std::string::npos) << rows << result.err;
   }
   EXPECT_EQ(place.hookpoint("run scene.hook --changes none.csv").status, 2);
+}
+
+TEST_F(ChangesFile, StartsFromWhatStandsBeforeAllOtherChanges) {
+  const std::string header = "step,time [s],trail,value\n";
+  EXPECT_NE(
+      repeat(header + "0,0,controls.east.value,1\n0,0,start:w.block.base.velocity,\"1,0,0\"\n")
+          .err.find("line 3: what a run starts from stands before other changes"),
+      std::string::npos);
+  EXPECT_NE(repeat(header + "0,0,start:w.block.base.velocity,fast\n").err.find("takes numbers"),
+            std::string::npos);
+  EXPECT_NE(repeat(header + "0,0,start:w.block.base.mass,1\n").err.find("initial state"),
+            std::string::npos);
+  const auto started =
+      repeat(header + "0,0,start:w.block.base.velocity,\"1,0,0\"\n0,0,controls.east.value,1\n");
+  EXPECT_EQ(started.status, 0) << started.err;
 }
 
 TEST_F(ChangesFile, TellsOfAChangeAfterTheEnd) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "reference/engines.h"
 #include "reference/ode/engine.h"
 #include "simulation/analysis/convex_hull.h"
+#include "simulation/analysis/unstable_stretches.h"
 #include "simulation/run/energy_watch.h"
 #include "tests/support/malloc_counter.h"
 #include "tests/support/run_text.h"
@@ -426,6 +428,45 @@ TEST(EnergyWatch, AllowsForWhatDryFrictionHolds) {
                     "friction = 5; rate = 0.0175; } } } }",
                     1000),
             "");
+}
+
+/// A link of moment of inertia J = 0.25 kg m^2 held by a PD controller that takes differences, at a
+/// step h: stable up to c = 2 J / h - h k / 2.
+TEST(UnstableStretches, OfAPdControllerBeginWhereItsClosedFormSays) {
+  constexpr double J = 0.25, h = 1e-3;
+  const auto arm = [](double k, double c) {
+    const Loaded loaded = load_text(fmt::format(
+        "World w {{ gravity = 0; deltat = 1 ms; Robot a {{ Base.fixed {{}} Chain c {{ Link l {{ mass "
+        "= 1; center_of_mass = 0.5, 0, 0; inertia = 0, 0, 0, 0, 0, 0; }} }} }} }} Controller.PD pd "
+        "{{ pconstant = {}; dconstant = {}; Wire FROM w.a.c.l.angle TO current; Wire FROM output TO "
+        "w.a.c.l.torque; }}",
+        k, c));
+    EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+    return *loaded.experiment;
+  };
+  const std::atomic<bool> stop = false;
+  const auto stretches = [&](const std::string& trail, double least, double greatest,
+                             bool logarithmic = false) {
+    return simulation::unstable_stretches(arm(100., 10.), {trail, {least, greatest}, logarithmic},
+                                          stop);
+  };
+  const double most = 2. * J / h - h * 100. / 2.;
+  const auto linear = stretches("pd.dconstant", 0., 1000.);
+  ASSERT_EQ(linear.size(), 1u);
+  EXPECT_NEAR(linear[0].least, most, 1000. / 2048.);
+  EXPECT_EQ(linear[0].greatest, 1000.);
+  const auto decades = stretches("pd.dconstant", 0.1, 1000., true);
+  ASSERT_EQ(decades.size(), 1u);
+  EXPECT_NEAR(std::log10(decades[0].least / most), 0., 4. / 2048.);
+  // Of a spring without damping enough both ends count: c = 10 bears k up to (2 J / h - c) 2 / h.
+  const auto springs = stretches("pd.pconstant", 0., 2e6);
+  ASSERT_EQ(springs.size(), 1u);
+  EXPECT_NEAR(springs[0].least, (2. * J / h - 10.) * 2. / h, 2e6 / 2048.);
+
+  EXPECT_TRUE(stretches("pd.dconstant", 0., 400.).empty());
+  EXPECT_TRUE(stretches("pd.goal", -1., 1.).empty());
+  EXPECT_TRUE(stretches("pd.output", 0., 1.).empty());
+  EXPECT_TRUE(stretches("w.a.c.l.torque", 0., 1.).empty());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ import { trianglesOf } from "./shapes.ts";
 export const numbersOfContact = 12;
 
 const leastTiles = 0.3; // of the ground's tiles, in the radius of a picture, unless bodies would be specks
+const rounding = 1e-12; // of poses [m and 1]
 const mostSurround = 4; // radii of the robots, which are to be seen among their obstacles and on their tiles
 
 export class Stage {
@@ -145,7 +146,13 @@ export class Stage {
     } else if (!this.started || (!this.told && snapshot.step === 0 && !snapshot.past && this.snapshot?.step !== 0)) {
       this.start(snapshot);
     }
+    if (this.startsElsewhere(snapshot)) this.start(snapshot);
     this.snapshot = snapshot;
+  }
+  /// Whether the run begins at another pose than before: a person set one.
+  private startsElsewhere(snapshot: Snapshot): boolean {
+    return snapshot.step === 0 && !snapshot.past &&
+      snapshot.subjects.some(({ poses }, k) => poses.some((value, at) => Math.abs(value - this.starts[k][at]) > rounding));
   }
   /// Bodies of the robots of what is visible, as an exaggeration moves them; their places are from `origin`, which moves by `carried`.
   movers(origin: Vector3, carried: Vector3): Mover[] {

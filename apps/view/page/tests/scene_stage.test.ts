@@ -125,3 +125,11 @@ test("the camera reaches what creeps far away, and not what has no place", () =>
   drawn(stage, snapshot(2, NaN));
   near(stage.farthest, 0);
 });
+
+// A person set another pose to start from: from there displacements count, whatever the description said.
+test("a run that starts again from another pose is measured from there", () => {
+  const stage = drawn(new Stage(description([0, 0, 0.1, 1, 0, 0, 0]), null), snapshot(0, 0));
+  near(drawn(stage, snapshot(5, 0.5)).displacement(0, 0, new Vector3()).x, 0.5);
+  near(drawn(stage, snapshot(0, 0.4)).displacement(0, 0, new Vector3()).x, 0);
+  near(drawn(stage, snapshot(5, 0.5)).displacement(0, 0, new Vector3()).x, 0.1);
+});

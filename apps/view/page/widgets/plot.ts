@@ -303,7 +303,7 @@ export function makePlot(context: Context, widget: PlotWidget, look?: PlotLook):
   });
   resize.observe(host);
   const forget = [
-    makeLayable(context, frame, title, widget.trail),
+    makeLayable(context, frame, title, widget),
     makeHeightResizable(context, frame, host, widget.trail, widget.height ?? defaultHeight),
     ...(phase ? [] : [wheelZooms(chart, context, { shown: rangeOfTime, whole: wholeTime })]),
     context.onTheme(() => chart.redraw(false, true)),

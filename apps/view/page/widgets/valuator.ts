@@ -7,6 +7,17 @@ import type { Range, ValuatorWidget } from "../protocol.ts";
 /// Significant digits of a number whose range spans decades.
 export const digitsOfLogarithmic = 3;
 
+/// Where a valuator reads its number and where it sets it.
+export interface ValueLine {
+  watch(listener: (value: number) => void): () => void;
+  set(value: number): Promise<void>;
+}
+
+/// A port of the run.
+export function lineOfPort(context: Context, port: string): ValueLine {
+  return { watch: (listener) => context.values.watch(port, listener), set: (value) => context.setter.set(port, value) };
+}
+
 export class Valuator {
   value = NaN;
   readonly decimals: number;
@@ -15,7 +26,10 @@ export class Valuator {
   private unanswered = 0;
   private unwatch = () => {};
 
-  constructor(private readonly context: Context, readonly widget: ValuatorWidget, private readonly show: (value: number) => void) {
+  constructor(
+    private readonly context: Context, readonly widget: ValuatorWidget, private readonly show: (value: number) => void,
+    private readonly line = lineOfPort(context, widget.port),
+  ) {
     this.range = widget.range ?? [-1, 1];
     this.decimals = widget.increment !== null && widget.increment > 0
       ? Math.max(0, decimalsOfMultiples(widget.increment))
@@ -25,7 +39,7 @@ export class Valuator {
   /// Shows the value, now and from now on.
   start(): void {
     this.show(this.value);
-    this.unwatch = this.context.values.watch(this.widget.port, (value) => {
+    this.unwatch = this.line.watch((value) => {
       if (this.held || this.unanswered > 0 || value === this.value) return;
       this.value = value;
       this.widen(value);
@@ -68,7 +82,7 @@ export class Valuator {
     this.widen(value);
     this.show(value);
     ++this.unanswered;
-    attempt(this.context, this.context.setter.set(this.widget.port, value).finally(() => {
+    attempt(this.context, this.line.set(value).finally(() => {
       --this.unanswered;
     }));
   }

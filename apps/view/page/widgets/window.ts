@@ -85,7 +85,7 @@ export function overlaysOf(windows: Widget[]): Context["overlays"] {
   collect(windows);
   const overlays: Context["overlays"] = new Map();
   for (const plot of plots) {
-    const below = plots.find((each) => each.trail === plot.overlay && each !== plot && each.overlay === null);
+    const below = plots.find((each) => each.trail === plot.overlay && each !== plot && !plots.some(({ trail }) => trail === each.overlay));
     if (below !== undefined) overlays.set(below.trail, [...(overlays.get(below.trail) ?? []), plot]);
   }
   return overlays;
