@@ -126,17 +126,20 @@ Holding move_on(const Surface& surface, const Holding& before, const Vector3d& c
 
 }  // namespace
 
-std::int64_t face_along(const Surface& surface, const Vector3d& inside, const Vector3d& normal) {
+std::int64_t face_along(const Surface& surface, const Vector3d& inside, const Vector3d& normal,
+                        double most_depth) {
   constexpr double within = 0.7;  // cosine
   double nearest = within;
   std::int64_t along = -1;
   surface.faces(region_about(inside, 0.), [&](const Face& face) {
     const double cosine = dot(face.normal, normal);
-    if (cosine <= nearest || face.height(inside) >= 0. || !is_over(face, inside, true)) return;
+    const double height = face.height(inside);
+    if (cosine <= nearest || height >= 0. || height < -most_depth || !is_over(face, inside, true))
+      return;
     nearest = cosine;
     along = face.id;
   });
-  return along >= 0 ? along : surface.nearest_face(inside).id;
+  return along;
 }
 
 BallContacts ball_on_surface(const Surface& surface, const Vector3d& center, double radius,

@@ -46,9 +46,10 @@ struct BallContacts {
   std::span<const SurfaceContact> all() const&& = delete;  // it would outlive what it shows
 };
 
-/// The face under which a place inside lies whose normal is nearest to `normal`; its nearest face where
-/// none is within 45 degrees. O(faces there).
-std::int64_t face_along(const Surface& surface, const Vector3d& inside, const Vector3d& normal);
+/// The face under which a place inside lies, at most `most_depth` [m] deep, whose normal is nearest to
+/// `normal`; -1 where none is within 45 degrees. O(faces there).
+std::int64_t face_along(const Surface& surface, const Vector3d& inside, const Vector3d& normal,
+                        double most_depth);
 
 /// Of a ball of `radius` [m], 0 of a point, at `center`, that was at `before` with `held` (outside
 /// if none): both in the surface's frame. Contacts are those with a depth over -`reach` [m]. Of the ball at

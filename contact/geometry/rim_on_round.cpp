@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -155,7 +156,8 @@ class RimSearch {
       const Vector3d place = circle_.place(angle);
       const auto at = over_side(solid_, place);
       if (!at || !at->within || -at->height <= -reach_ || -at->height > greatest_radius()) return;
-      const double weight = between_faces(at->normal, circle_.radial(angle));
+      const double weight = between_faces(at->normal, circle_.radial(angle)) *
+                            shorter_way(-at->height, depth_below_ends(place));
       if (weight > 0.)
         found_.add({RimContact::Kind::side, 0, number++, place, at->normal, -at->height, weight});
     });
@@ -211,6 +213,12 @@ class RimSearch {
     const auto side = over_side(solid_, point);
     return depth <= shallow * std::min(length_, greatest_radius()) || !side ||
            side->height <= -depth;
+  }
+
+  /// Below the nearer flat end [m]; infinity where there is none.
+  double depth_below_ends(const Vector3d& place) const {
+    if (!solid_.flat_ends) return std::numeric_limits<double>::infinity();
+    return std::min(-end_of(solid_, 0).height(place), -end_of(solid_, 1).height(place));
   }
 
   double greatest_radius() const { return std::max(solid_.radius, solid_.far_radius); }

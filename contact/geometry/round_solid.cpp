@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hookpoint::contact {
 namespace {
@@ -116,8 +117,18 @@ RoundSide side_of(const RoundSolid& solid) {
   const double slope = (solid.far_radius - solid.radius) / length;
   const double slant = std::hypot(1., slope);
   return {solid.from + slope * solid.radius * solid.axis,
-          solid.to + slope * solid.far_radius * solid.axis, slant * solid.radius,
-          slant * solid.far_radius};
+          solid.to + slope * solid.far_radius * solid.axis,
+          slant * solid.radius,
+          slant * solid.far_radius,
+          true,
+          {solid.from, solid.to}};
+}
+
+double RoundSide::depth_below_ends(const Vector3d& place) const {
+  if (!flat_ends) return std::numeric_limits<double>::infinity();
+  const Vector3d way = ends[1] - ends[0];
+  const Vector3d axis = (1. / norm(way)) * way;
+  return std::min(dot(place - ends[0], axis), dot(ends[1] - place, axis));
 }
 
 std::optional<CrossedSides> crossed_sides(const RoundSide& first, const RoundSide& second,
@@ -148,7 +159,11 @@ std::optional<CrossedSides> crossed_sides(const RoundSide& first, const RoundSid
   const double radius_1 = first.radius + k_1 * s, radius_2 = second.radius + k_2 * t;
   const double depth = radius_1 + radius_2 - distance;
   if (depth <= -reach) return std::nullopt;
-  return CrossedSides{first.from + s * a - radius_1 * u, {u, depth, true}};
+  const Vector3d place = first.from + s * a - radius_1 * u, of_second = place + depth * u;
+  const double weight = shorter_way(
+      depth, std::min(first.depth_below_ends(of_second), second.depth_below_ends(place)));
+  if (weight == 0.) return std::nullopt;
+  return CrossedSides{place, {u, depth, true}, weight};
 }
 
 }  // namespace hookpoint::contact

@@ -1,6 +1,7 @@
 // Solids of revolution as what others touch: balls, capsules, cylinders, truncated cones, discs.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -67,10 +68,23 @@ struct RoundSide {
   Vector3d from, to;       ///< [m]
   double radius = 0.;      ///< [m]
   double far_radius = 0.;  ///< [m]
+  bool flat_ends = false;
+  std::array<Vector3d, 2> ends{};  ///< centres of the flat ends [m]
+
+  /// How far a place is below the nearer flat end [m], < 0 beyond it; infinity where there is none.
+  double depth_below_ends(const Vector3d& place) const;
 };
 /// Of a truncated cone, or a cylinder, whose radii at its ends are those. A ball about c touches the
 /// side at s = c - m r(s), m = dr/ds, with the radius r sqrt(1 + m^2).
 RoundSide side_of(const RoundSolid& solid);
+
+/// What a contact with a depth counts where its bodies also part by moving `other` [m] over an edge or
+/// an end that is near: 1 where that is farther, falling to 0 where it is half as far. Of two ways out
+/// of a solid the shorter is the one that it was entered by.
+inline double shorter_way(double depth, double other) {
+  if (depth <= 0.) return other > 0. ? 1. : 0.;
+  return std::clamp(2. * other / depth - 1., 0., 1.);
+}
 
 /// Two round sides that cross, seen from the second: none where their axes are parallel or nearest at
 /// an end, where balls and rims touch. With u from the second's axis to the first's, and k the growth
@@ -78,6 +92,7 @@ RoundSide side_of(const RoundSolid& solid);
 struct CrossedSides {
   Vector3d place;  ///< on the first one's surface [m]
   RoundContact contact;
+  double weight = 1.;  ///< from 0 to 1: less where they part over a flat end as well
 };
 std::optional<CrossedSides> crossed_sides(const RoundSide& first, const RoundSide& second,
                                           double reach);

@@ -196,10 +196,10 @@ contact::Holding ShapeContacts::holding(const ContactKey& key) const {
   return {};
 }
 
-std::optional<Vector3d> ShapeContacts::normal_at(std::size_t a, std::size_t b,
-                                                 const Vector3d& place) const {
+std::optional<PressingPlace> ShapeContacts::place_near(std::size_t a, std::size_t b,
+                                                       const Vector3d& place) const {
   double nearest = same_place;
-  std::optional<Vector3d> normal;
+  std::optional<PressingPlace> found;
   const auto consider = [&](std::size_t first, std::size_t second, double sign) {
     for (const Place& other :
          kept(static_cast<std::int64_t>(first), static_cast<std::int64_t>(second))) {
@@ -207,12 +207,12 @@ std::optional<Vector3d> ShapeContacts::normal_at(std::size_t a, std::size_t b,
           std::min(norm(other.at.place - place), norm(other_place(other.at) - place));
       if (distance >= nearest || !(other.at.depth > 0.)) continue;
       nearest = distance;
-      normal = sign * other.at.normal;
+      found = {sign * other.at.normal, other.at.depth + other.at.begun_at + same_place};
     }
   };
   consider(a, b, 1.);
   consider(b, a, -1.);
-  return normal;
+  return found;
 }
 
 std::int64_t ShapeContacts::match_key(std::size_t found) const {

@@ -157,8 +157,8 @@ class ShapeContacts final : private DetectionMemory {
     return committed_.motions[object];
   }
   contact::Holding holding(const ContactKey& key) const override;
-  std::optional<Vector3d> normal_at(std::size_t a, std::size_t b,
-                                    const Vector3d& place) const override;
+  std::optional<PressingPlace> place_near(std::size_t a, std::size_t b,
+                                          const Vector3d& place) const override;
   /// The committed places of which object a touches b.
   std::span<const Place> kept(std::int64_t a, std::int64_t b) const;
 

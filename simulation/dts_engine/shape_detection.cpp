@@ -61,6 +61,25 @@ bool is_under(const contact::Surface& surface, const contact::Face& face, const 
   });
 }
 
+/// How far the part of a ridge that is inside a shape with flat ends reaches below the nearer end [m]: the
+/// way out over that end. `at`: where it crosses the rim of one of them.
+double depth_of_ridge(const contact::Ridge& ridge, const contact::ShapeRim& shape,
+                      const contact::RimCrossing& at) {
+  const Vector3d on_ridge = at.place + at.depth * at.normal;
+  const double along = dot(on_ridge - ridge.point, ridge.along);
+  const double before = along - ridge.from, after = ridge.to - along;
+  const Vector3d end = shape.end_against(at.normal), &center = shape.rim.center;
+  const double slope = dot(ridge.along, end);
+  const auto below = [&](const Vector3d& place, const Vector3d& normal, double inside) {
+    const double of_part = slope == 0. ? 0. : inside * std::abs(slope);
+    return of_part - dot(on_ridge - place, normal);
+  };
+  // A disc is left by either side.
+  if (shape.is_disc()) return below(center, end, std::min(before, after));
+  return std::min(below(center, end, slope > 0. ? before : after),
+                  below(2. * shape.middle - center, -end, slope > 0. ? after : before));
+}
+
 /// The places of one of a rim's points under several faces.
 struct RimOnFaces {
   std::array<contact::Obstruction, contact::most_obstructions> faces;
@@ -292,8 +311,12 @@ void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_
   contact::Holding held = memory_->holding(key);
   // A corner that comes in over an edge takes over what the edge held, not what it came through.
   if (held.count == 0 && ball.radius == 0. && surface.contains(place_in_b)) {
-    if (const auto normal = memory_->normal_at(a, b, memory_->before(b).to_world(before)))
-      held = {{contact::face_along(surface, place_in_b, transpose_times(frame.R_WB, *normal))}, 1};
+    if (const auto edge = memory_->place_near(a, b, memory_->before(b).to_world(before))) {
+      const std::int64_t face =
+          contact::face_along(surface, place_in_b, transpose_times(frame.R_WB, edge->normal),
+                              edge->most_depth + norm(place_in_b - before));
+      if (face >= 0) held = {{face}, 1};
+    }
   }
   const contact::BallContacts found =
       contact::ball_on_surface(surface, place_in_b, ball.radius, before, held, reach_,
@@ -309,8 +332,17 @@ void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_
 
 std::size_t ShapeDetection::end_before(const contact::RoundSolid& disc, std::size_t b,
                                        std::size_t a, const Vector3d& place) const {
-  const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(place));
-  return contact::end_of(disc, 1).height(before) > 0. ? 1 : 0;
+  constexpr double level = 1e-3;  // of the radius
+  const contact::RoundEnd end = contact::end_of(disc, 1);
+  const auto height = [&](const Vector3d& of_a) {
+    return end.height(memory_->before(b).to_object(memory_->before(a).to_world(of_a)));
+  };
+  const double over = height(place);
+  if (std::abs(over) > level * disc.radius) return over > 0. ? 1 : 0;
+  // On the disc to rounding: it came from where the rest of its body is.
+  const contact::Region& body = objects_[a].bounds;
+  const double middle = height(0.5 * (body.low + body.high));
+  return (middle != 0. ? middle : over) > 0. ? 1 : 0;
 }
 
 // By the end that holds it, else the one over which it was before. Beside the disc nothing holds it: a ball
@@ -441,7 +473,8 @@ void ShapeDetection::rim_on_surface(const contact::Surface& surface, std::size_t
           // Between the side and the end of the shape that meet in the rim.
           const double weight =
               contact::between(at.normal, ridge.outwards) *
-              contact::between(-at.normal, {at.radial, shape.end_against(at.normal)});
+              contact::between(-at.normal, {at.radial, shape.end_against(at.normal)}) *
+              contact::shorter_way(at.depth, depth_of_ridge(ridge, shape, at));
           if (weight > 0.)
             touch(at.place, at.normal, at.depth, weight, i, other + of_a_ridge + ridge.id);
         }
@@ -533,13 +566,17 @@ void ShapeDetection::sides_on_ridges(const contact::Surface& surface, std::size_
       const double widest = std::max(side.radius, side.far_radius);
       const auto at = contact::edge_on_ridge(ridge, edge, reach_, 2. * widest);
       if (!at) continue;
+      const Vector3d on_ridge = at->place + at->depth * at->normal;
+      const double weight =
+          at->weight * contact::shorter_way(at->depth, side.depth_below_ends(on_ridge));
+      if (weight == 0.) continue;
       const Vector3d place = frame.to_world(at->place);
       add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), numbered(side_kind, k),
             other + ridge.id},
            place,
            frame.R_WB * at->normal,
            at->depth,
-           at->weight,
+           weight,
            own.sides[k].material,
            material_of(b, place, material_b),
            {}});
@@ -550,8 +587,8 @@ void ShapeDetection::sides_on_ridges(const contact::Surface& surface, std::size_
 contact::RoundSide ShapeDetection::side_in(std::size_t object, std::size_t side,
                                            const ObjectMotion& frame) const {
   contact::RoundSide at = objects_[object].sides[side].side;
-  at.from = frame.to_object(motions_[object].to_world(at.from));
-  at.to = frame.to_object(motions_[object].to_world(at.to));
+  for (Vector3d* place : {&at.from, &at.to, &at.ends[0], &at.ends[1]})
+    *place = frame.to_object(motions_[object].to_world(*place));
   return at;
 }
 
@@ -677,7 +714,7 @@ void ShapeDetection::sides_on_sides(std::size_t a, std::size_t b) {
            place,
            frame.R_WB * at->contact.normal,
            at->contact.depth,
-           1.,
+           at->weight,
            own.sides[k].material,
            material_of(b, place, other.sides[l].material),
            {}});

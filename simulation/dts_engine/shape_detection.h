@@ -68,6 +68,12 @@ Vector3d belt_velocity(const ShapeContact& contact, std::span<const ObjectMotion
 const contact::MaterialConstants<double>& constants_of(const ContactMaterials& materials,
                                                        const ShapeContact& contact);
 
+/// Where one object pressed on another.
+struct PressingPlace {
+  Vector3d normal;         ///< unit, out of the other, world axes
+  double most_depth = 0.;  ///< of the place, with what it may be off [m]
+};
+
 /// What detection remembers of the accepted state before: where the objects stood, and which faces
 /// hold the balls that are inside.
 class DetectionMemory {
@@ -77,10 +83,9 @@ class DetectionMemory {
   /// Whether nothing comes inside but by rounding, so that what lies on a surface is seen from outside.
   virtual bool stays_outside() const { return false; }
   virtual contact::Holding holding(const ContactKey& key) const = 0;
-  /// Normal out of b of a committed contact at `place`, which a's material carries to where it is now;
-  /// none without one. World axes.
-  virtual std::optional<Vector3d> normal_at(std::size_t a, std::size_t b,
-                                            const Vector3d& place) const = 0;
+  /// A committed contact at `place`, which a's material carries to where it is now; none without one.
+  virtual std::optional<PressingPlace> place_near(std::size_t a, std::size_t b,
+                                                  const Vector3d& place) const = 0;
 };
 
 /// Room for the places where objects touch at once.
