@@ -67,6 +67,11 @@ const Written writings[] = {
      "note 1:2 left out: limit of effort that is no bound (1)\n"},
     {"effort_beyond_all_numbers", with("", "<limit effort=\"1e400\"/>"),
      "note 1:2 left out: limit of effort that is no bound (1)\n"},
+    {"stops_without_end",
+     robot(link_l + joint("j", "revolute",
+                          "<limit lower=\"-1e+16\" upper=\"1e+16\" effort=\"5\" "
+                          "velocity=\"2\"/>")),
+     "note 1:2 left out: limit of lower that is no bound (1), limit of upper that is no bound (1)\n"},
     {"limits_of_zero",
      robot(link_l + joint("j", "revolute", "<limit lower=\"0\" upper=\"0\" effort=\"0\"/>")),
      "note 1:2 left out: joint whose limits are equal: fixed (1), limit of effort that is no bound "
@@ -124,6 +129,23 @@ const Written writings[] = {
      robot(link_l +
            joint("j", "continuous", "<origin xyz=\"+1.E-05 -.5 1e-6\" rpy=\" 0  -0 0 \"/>")),
      ""},
+    {"surface_of_which_a_part_is_read",
+     robot("<gazebo reference=\"l\"><mu1>1.0</mu1><mu2>0.01</mu2><fdir1>1 0 0</fdir1>"
+           "<minDepth>0.003</minDepth><selfCollide>true</selfCollide></gazebo>"
+           "<gazebo reference=\"b\"><mu1>0.5</mu1><mu2>0.5</mu2></gazebo>" +
+           link_l + joint("j", "continuous", "")),
+     "note 1:2 left out: <fdir1> of <gazebo> (1), <minDepth> of <gazebo> (1), <selfCollide> of "
+     "<gazebo> (1), mu2 that is not mu1 (1)\n"},
+    {"contact_of_which_a_part_is_read",
+     with("<contact><lateral_friction value=\"0.8\"/><contact_cfm value=\"0.1\"/><contact_erp "
+          "value=\"0.2\"/><inertia_scaling value=\"3\"/><friction_anchor/></contact>"),
+     "note 1:2 left out: <contact_cfm> of <contact> (1), <contact_erp> of <contact> (1), "
+     "<friction_anchor> of <contact> (1), <inertia_scaling> of <contact> (1)\n"},
+    {"transmission_of_two_joints",
+     robot(link_l + joint("j", "continuous", "") +
+           "<transmission name=\"t\"><joint name=\"j\"/><joint name=\"k\"/><actuator name=\"a\">"
+           "<motorInertia>1e-3</motorInertia></actuator></transmission>"),
+     "note 1:2 left out: further <joint> of a <transmission> (1)\n"},
 };
 INSTANTIATE_TEST_SUITE_P(Writings, MakersWriting, ::testing::ValuesIn(writings),
                          [](const auto& of) { return of.param.name; });
@@ -136,6 +158,88 @@ TEST(UrdfMakers, AnEffortIsALimitOfTheDrive) {
   EXPECT_FALSE(first_link(load_urdf(with("", "<limit effort=\"0\"/>"))).effort_limit);
   EXPECT_FALSE(first_link(load_urdf(with("", "<limit velocity=\"0\"/>"))).velocity_limit);
   EXPECT_FALSE(load_urdf(with("", "<limit effort=\"strong\"/>")).experiment);
+}
+
+// Without end, or beyond all numbers: no stop on that side. On the other side it would be no joint.
+TEST(UrdfMakers, AStopWithoutEndIsNone) {
+  const auto stops = [](const std::string& type, const char* lower, const char* upper) {
+    return load_urdf(robot(link_l + joint("j", type,
+                                          std::string("<limit lower=\"") + lower + "\" upper=\"" +
+                                              upper + "\" effort=\"1\" velocity=\"1\"/>")));
+  };
+  for (const char* type : {"revolute", "prismatic"}) {
+    for (const auto& [lower, upper] :
+         {std::pair{"-1e+16", "1e+16"}, std::pair{"-inf", "inf"}, std::pair{"-INFINITY", "+Inf"},
+          std::pair{"-1e400", " 1e400 "}, std::pair{"-1.0000001e12", "1.0000001e12"}}) {
+      const Loaded loaded = stops(type, lower, upper);
+      ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+      EXPECT_FALSE(first_link(loaded).lower_limit || first_link(loaded).upper_limit) << lower;
+    }
+    const Loaded below = stops(type, "-0.5", "inf"), above = stops(type, "-1e16", "0.25");
+    EXPECT_EQ(first_link(below).lower_limit, -0.5);
+    EXPECT_FALSE(first_link(below).upper_limit);
+    EXPECT_FALSE(first_link(above).lower_limit);
+    EXPECT_EQ(first_link(above).upper_limit, 0.25);
+    for (const auto& [lower, upper] : {std::pair{"inf", "1"}, std::pair{"-1", "-1e16"},
+                                       std::pair{"nan", "1"}, std::pair{"-0x1p99", "1"}})
+      EXPECT_FALSE(stops(type, lower, upper).experiment) << lower << ' ' << upper;
+  }
+}
+
+/// What counts of the surface of the first link, that is a ball.
+contact::MaterialConstants<double> surface(const std::string& link_inside,
+                                           const std::string& outside) {
+  const Loaded loaded =
+      load_urdf(robot(outside + "<link name=\"l\">" + inertial +
+                      "<collision><geometry><sphere radius=\"0.1\"/></geometry></collision>" +
+                      link_inside + "</link>\n" + joint("j", "continuous", "")),
+                ", contact = file");
+  EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const int material = first_link(loaded).body.shapes.at(0).material;
+  return loaded.experiment->materials.at(static_cast<std::size_t>(material)).constants;
+}
+
+// As sdformat's converter of URDF: each block adds what it states, and the last value of two counts.
+TEST(UrdfMakers, EachStatementOfASurfaceCounts) {
+  const auto two = surface("",
+                           "<gazebo reference=\"l\"><mu1>0.6</mu1></gazebo><gazebo "
+                           "reference=\"l\"><kp>100000</kp><kd>100</kd></gazebo>");
+  EXPECT_EQ(two.static_friction, 0.6);
+  EXPECT_EQ(two.normal_stiffness, 1e5);
+  EXPECT_EQ(two.normal_damping, 100.);
+  const auto both = surface(
+      "<contact><lateral_friction value=\"0.8\"/><stiffness value=\"30000\"/><damping "
+      "value=\"1000\"/></contact>",
+      "<gazebo reference=\"l\"><kp>1e6</kp><kd>0</kd></gazebo>");
+  EXPECT_EQ(both.kinetic_friction, 0.8);
+  EXPECT_EQ(both.normal_stiffness, 1e6);
+  EXPECT_EQ(both.normal_damping, 1000.);
+  const Loaded changed = load_urdf(robot(
+      "<gazebo reference=\"l\"><mu1>0.6</mu1></gazebo><gazebo reference=\"l\"><mu1>0.7</mu1></gazebo>" +
+      link_l + joint("j", "continuous", "")));
+  EXPECT_EQ(
+      changed.diagnostics,
+      "note 1:2 left out: constant of a surface that is stated again with another value (1)\n");
+}
+
+// Gazebo's own kp is 1e13, and friction without end is inf: the largest number, as an SDF's.
+TEST(UrdfMakers, ASurfaceWithoutEndHasTheLargestNumber) {
+  constexpr double largest = 1e12;
+  for (const char* endless : {"1e+13", "inf", "1e400"}) {
+    const std::string text = endless;
+    const auto read = surface(
+        "", "<gazebo reference=\"l\"><mu1>" + text + "</mu1><kp value=\"" + text + "\"/></gazebo>");
+    EXPECT_EQ(read.static_friction, largest);
+    EXPECT_EQ(read.normal_stiffness, largest);
+    EXPECT_EQ(
+        surface("<contact><stiffness value=\"" + text + "\"/></contact>", "").normal_stiffness,
+        largest);
+  }
+  for (const char* wrong : {"-1", "-inf", "nan", "hard"})
+    EXPECT_FALSE(load_urdf(robot("<gazebo reference=\"l\"><mu1>" + std::string(wrong) +
+                                 "</mu1></gazebo>" + link_l + joint("j", "continuous", "")))
+                     .experiment)
+        << wrong;
 }
 
 /// N^2 I: 6.33^2 x 1e-3; what the Include says goes before it.
@@ -155,6 +259,19 @@ TEST(UrdfMakers, ARotorIsSeenThroughItsGears) {
                                              "<drake:gear_ratio value=\"3\"/>")))
                        .rotor_inertia,
                    9. * 2e-3);
+  // Gears of the joint: 100^2 x 1e-4, and both: (6.33 x 2)^2 x 1e-3.
+  const auto of_joint = [](const std::string& gear, const std::string& motor) {
+    return first_link(load_urdf(robot(link_l + joint("j", "continuous", "") +
+                                      "<transmission name=\"t\"><joint name=\"j\">" + gear +
+                                      "</joint><actuator name=\"a\">" + motor +
+                                      "</actuator></transmission>")))
+        .rotor_inertia;
+  };
+  EXPECT_DOUBLE_EQ(of_joint("<mechanicalReduction>100</mechanicalReduction>",
+                            "<motorInertia>1e-4</motorInertia>"),
+                   1.);
+  EXPECT_DOUBLE_EQ(of_joint("<mechanical_reduction>2</mechanical_reduction>", gears),
+                   12.66 * 12.66 * 1e-3);
   EXPECT_EQ(first_link(load_urdf(text(gears), ", rotor_inertia = 0.25 kg.m^2")).rotor_inertia,
             0.25);
   EXPECT_EQ(first_link(load_urdf(text(gears), ", rotor_inertia = 0.25, j_rotor_inertia = 0.5"))

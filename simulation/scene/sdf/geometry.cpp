@@ -181,13 +181,9 @@ std::optional<SurfaceMaterial> read_sdf_surface(const XmlElement& collision, Sta
   const auto not_negative = [](const XmlElement& parent,
                                const char* name) -> std::optional<double> {
     const XmlElement element = SdfDocument::child(parent, name);
-    if (SdfDocument::text_of(parent, name).empty()) return std::nullopt;
-    // Gazebo's own default of kp is 1e13; infinite friction is written as inf.
-    constexpr double greatest = 1e12;
-    if (element.node.text().as_double() > greatest) return greatest;
-    const double value = element.file->content(element.node);
-    if (value < 0.) element.file->fail(element.place(), fmt::format("<{}> is not negative", name));
-    return std::max(value, 0.);
+    const std::string text = SdfDocument::text_of(parent, name);
+    if (text.empty()) return std::nullopt;
+    return element.file->surface_constant(text, fmt::format("<{}>", name), element.place());
   };
   const XmlElement friction = SdfDocument::child(surface, "friction");
   const XmlElement ode = SdfDocument::child(friction, "ode");

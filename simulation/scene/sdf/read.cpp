@@ -479,23 +479,23 @@ void SdfReader::read_limits(const XmlElement& axis, bool bounded, UrdfJoint& joi
   const XmlElement limit = SdfDocument::child(axis, "limit");
   if (!limit.node) return;
   joint.limit_place = joint.effort_place = joint.velocity_place = limit.place();
-  // Infinity, 1e16 and the like bound nothing.
   const auto bound = [&](const char* name) -> std::optional<double> {
-    constexpr double endless = 1e12;
-    const XmlElement element = SdfDocument::child(limit, name);
-    if (SdfDocument::text_of(limit, name).empty() ||
-        !(std::abs(element.node.text().as_double()) <= endless))
-      return std::nullopt;
-    return element.file->content(element.node);
+    const std::string text = SdfDocument::text_of(limit, name);
+    if (text.empty()) return std::nullopt;
+    return limit.file->bound(text, SdfDocument::child(limit, name).place());
   };
-  const auto effort = bound("effort"), velocity = bound("velocity");
-  if (effort && *effort > 0.) joint.effort_limit = effort;
-  if (velocity && *velocity > 0.) joint.velocity_limit = velocity;
+  const auto stop = [&](const char* name, Beyond side) -> std::optional<double> {
+    const std::string text = SdfDocument::text_of(limit, name);
+    if (text.empty()) return std::nullopt;
+    return limit.file->stop(text, side, SdfDocument::child(limit, name).place());
+  };
+  joint.effort_limit = bound("effort");
+  joint.velocity_limit = bound("velocity");
   for (const char* aside : {"stiffness", "dissipation"}) {
     if (limit.node.child(aside)) leave_out(fmt::format("<{}> of <limit>", aside));
   }
   if (!bounded) return;
-  const auto lower = bound("lower"), upper = bound("upper");
+  const auto lower = stop("lower", Beyond::below), upper = stop("upper", Beyond::above);
   if (lower && upper && *lower == *upper) {
     leave_out("joint whose limits are equal: fixed");
     return fix_joint(*lower, joint);

@@ -35,10 +35,17 @@ class UrdfReader : private UrdfXml {
   void read_inertial(const pugi::xml_node& node, UrdfLink& link);
   void read_shape(const pugi::xml_node& node, UrdfLink& link);
   /// What <contact> of a link says of its surface, as Bullet has it, and <gazebo> of the robot.
-  void read_link_contact(const pugi::xml_node& node, UrdfLink& link);
+  void read_link_contact(const pugi::xml_node& node, std::size_t link);
   void read_gazebo(const pugi::xml_node& node);
-  void give_material(const SurfaceMaterial& material, UrdfLink& link);
+  /// A constant of a surface in an element of that name: its text, or its attribute `value`.
+  std::optional<double> surface_value(const pugi::xml_node& node, const char* name);
+  /// Adds to what is stated of a link's surface; a constant counts as it was stated last.
+  void state_surface(SurfaceMaterial material, std::size_t link);
+  /// The Materials of links whose surfaces are stated.
+  void give_materials();
   void leave_out(const std::string& what, std::size_t times = 1) { robot_.left_out[what] += times; }
+  /// What of an element's children is not among `read`.
+  void leave_out_others(const pugi::xml_node& node, std::initializer_list<std::string_view> read);
   std::optional<ShapeGeometry> read_geometry(const pugi::xml_node& node);
   void read_mesh_at(const pugi::xml_node& node, const Pose& X_LS, UrdfLink& link);
   void read_joint(const pugi::xml_node& node);
@@ -47,6 +54,8 @@ class UrdfReader : private UrdfXml {
   bool read_end(const pugi::xml_node& node, const char* role, std::size_t& link);
   void read_axis(const pugi::xml_node& node, UrdfJoint& joint);
   void read_limit(const pugi::xml_node& node, UrdfJoint& joint);
+  /// A stop of a joint, 0 where it is not given; nothing where it lies beyond all numbers on `side`.
+  std::optional<double> read_stop(const pugi::xml_node& limit, const char* attribute, Beyond side);
   void read_mimic(const pugi::xml_node& node, UrdfJoint& joint);
   void read_dynamics(const pugi::xml_node& node, UrdfJoint& joint);
   void read_transmission(const pugi::xml_node& node);
@@ -61,7 +70,9 @@ class UrdfReader : private UrdfXml {
   language::FileStore& files_;
   UrdfRobot robot_;
   std::unordered_map<std::string, std::size_t> links_, joints_;
-  int hints_ = 0;  ///< given so far
+  std::vector<std::pair<std::size_t, SurfaceMaterial>> surfaces_;  ///< of links, as first stated
+  std::unordered_map<std::size_t, std::size_t> surface_of_;        ///< a link's place in surfaces_
+  int hints_ = 0;                                                  ///< given so far
 };
 
 std::optional<UrdfRobot> UrdfReader::run() {
@@ -79,6 +90,7 @@ std::optional<UrdfRobot> UrdfReader::run() {
       leave_out(fmt::format("<{}>", name));
     if (name == "gazebo") read_gazebo(node);
   }
+  give_materials();
   if (robot_.links.empty()) fail(robot_.place, "the robot has no <link>");
   for (const pugi::xml_node& node : root.children("joint")) {
     if (!full()) read_joint(node);
@@ -106,60 +118,82 @@ void UrdfReader::read_link(const pugi::xml_node& node) {
   for (const pugi::xml_node& shape : node.children(kind)) read_shape(shape, link);
   for (pugi::xml_node shape = node.child(other); shape; shape = shape.next_sibling(other))
     leave_out(fmt::format("<{}>", other));
-  if (const pugi::xml_node contact = only(node, "contact")) read_link_contact(contact, link);
+  if (const pugi::xml_node contact = only(node, "contact"))
+    read_link_contact(contact, same->second);
   robot_.links.push_back(std::move(link));
 }
 
-void UrdfReader::read_link_contact(const pugi::xml_node& node, UrdfLink& link) {
+std::optional<double> UrdfReader::surface_value(const pugi::xml_node& node, const char* name) {
+  const pugi::xml_node element = node.child(name);
+  if (!element) return std::nullopt;
+  const pugi::xml_attribute value = element.attribute("value");
+  if (value) return surface_constant(value.value(), name, place(element, "value"));
+  return surface_constant(text_in(element), name, place(element));
+}
+
+void UrdfReader::leave_out_others(const pugi::xml_node& node,
+                                  std::initializer_list<std::string_view> read) {
+  for (const pugi::xml_node& child : node.children()) {
+    const std::string_view name = child.name();
+    if (child.type() == pugi::node_element && std::ranges::count(read, name) == 0)
+      leave_out(fmt::format("<{}> of <{}>", name, node.name()));
+  }
+}
+
+void UrdfReader::read_link_contact(const pugi::xml_node& node, std::size_t link) {
   SurfaceMaterial material;
   material.place = place(node);
-  const auto value = [&](const char* name) -> std::optional<double> {
-    const pugi::xml_node element = node.child(name);
-    return element ? std::optional(not_negative(element, "value")) : std::nullopt;
-  };
-  material.friction = value("lateral_friction");
+  material.friction = surface_value(node, "lateral_friction");
   if (choices_.contact == StatedContact::file) {
-    material.stiffness = value("stiffness");
-    material.damping = value("damping");
-    material.restitution = value("restitution");
-    material.rolling = value("rolling_friction");
-    material.spinning = value("spinning_friction");
+    material.stiffness = surface_value(node, "stiffness");
+    material.damping = surface_value(node, "damping");
+    material.restitution = surface_value(node, "restitution");
+    material.rolling = surface_value(node, "rolling_friction");
+    material.spinning = surface_value(node, "spinning_friction");
   }
-  give_material(material, link);
+  leave_out_others(node, {"lateral_friction", "stiffness", "damping", "restitution",
+                          "rolling_friction", "spinning_friction"});
+  state_surface(std::move(material), link);
 }
 
 void UrdfReader::read_gazebo(const pugi::xml_node& node) {
   const auto link = links_.find(node.attribute("reference").value());
   SurfaceMaterial material;
   material.place = place(node);
-  // As text, or as an attribute.
-  const auto value = [&](const char* name) -> std::optional<double> {
-    const pugi::xml_node element = node.child(name);
-    if (!element) return std::nullopt;
-    const double read =
-        element.attribute("value") ? number(element, "value", {}) : content(element);
-    if (read < 0.) fail(place(element), fmt::format("{} is not negative", name));
-    return std::max(read, 0.);
-  };
-  material.friction = value("mu1");
+  material.friction = surface_value(node, "mu1");
   if (choices_.contact == StatedContact::file) {
-    material.stiffness = value("kp");
-    material.damping = value("kd");
+    material.stiffness = surface_value(node, "kp");
+    material.damping = surface_value(node, "kd");
   }
   if (link == links_.end() || material.says_nothing()) return leave_out("<gazebo>");
-  give_material(material, robot_.links[link->second]);
+  if (const auto across = surface_value(node, "mu2"); across && across != material.friction)
+    leave_out("mu2 that is not mu1");
+  leave_out_others(node, {"mu1", "mu2", "kp", "kd"});
+  state_surface(std::move(material), link->second);
 }
 
-void UrdfReader::give_material(const SurfaceMaterial& material, UrdfLink& link) {
-  SurfaceMaterial stated = material;
+void UrdfReader::state_surface(SurfaceMaterial material, std::size_t link) {
   // Of these 0 means that nothing is stated.
-  for (std::optional<double>* constant : {&stated.stiffness, &stated.damping}) {
+  for (std::optional<double>* constant : {&material.stiffness, &material.damping}) {
     if (*constant == 0.) constant->reset();
   }
-  if (choices_.contact == StatedContact::ground || stated.says_nothing()) return;
-  const std::string name = add_material(std::move(stated), robot_.materials);
-  for (UrdfShape& shape : link.shapes) shape.material = name;
-  for (UrdfPoint& point : link.points) point.material = name;
+  if (choices_.contact == StatedContact::ground || material.says_nothing()) return;
+  const auto [known, is_new] = surface_of_.emplace(link, surfaces_.size());
+  if (is_new) {
+    surfaces_.emplace_back(link, std::move(material));
+    return;
+  }
+  if (const std::size_t times = restate(material, surfaces_[known->second].second); times > 0)
+    leave_out("constant of a surface that is stated again with another value", times);
+}
+
+void UrdfReader::give_materials() {
+  for (auto& [index, surface] : surfaces_) {
+    const std::string name = add_material(std::move(surface), robot_.materials);
+    UrdfLink& link = robot_.links[index];
+    for (UrdfShape& shape : link.shapes) shape.material = name;
+    for (UrdfPoint& point : link.points) point.material = name;
+  }
 }
 
 void UrdfReader::read_inertial(const pugi::xml_node& node, UrdfLink& link) {
@@ -338,8 +372,8 @@ void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
   const auto read_bound = [&](const char* attribute, std::optional<double>& bounds,
                               language::Position& at) {
     if (!limit.attribute(attribute)) return;
-    bounds = bound(limit, attribute);
     at = place(limit, attribute);
+    bounds = bound(limit.attribute(attribute).value(), at);
     if (!bounds) leave_out(fmt::format("limit of {} that is no bound", attribute));
   };
   read_bound("effort", joint.effort_limit, joint.effort_place);
@@ -348,9 +382,9 @@ void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
   if (!limit.attribute("lower") && !limit.attribute("upper"))
     return leave_out(fmt::format("limits that joint `{}` is not given", joint.name));
   joint.limit_place = place(limit);
-  joint.lower_limit = number(limit, "lower", 0.);
-  joint.upper_limit = number(limit, "upper", 0.);
-  if (*joint.lower_limit < *joint.upper_limit) return;
+  joint.lower_limit = read_stop(limit, "lower", Beyond::below);
+  joint.upper_limit = read_stop(limit, "upper", Beyond::above);
+  if (!joint.lower_limit || !joint.upper_limit || *joint.lower_limit < *joint.upper_limit) return;
   if (*joint.lower_limit == *joint.upper_limit && limit.attribute("lower") &&
       limit.attribute("upper")) {
     fix_joint(*joint.lower_limit, joint);
@@ -360,6 +394,15 @@ void UrdfReader::read_limit(const pugi::xml_node& node, UrdfJoint& joint) {
   fail(place(limit, "lower"),
        fmt::format("lower = {:g} is not below upper = {:g} (each is 0 where it is not given)",
                    *joint.lower_limit, *joint.upper_limit));
+}
+
+std::optional<double> UrdfReader::read_stop(const pugi::xml_node& limit, const char* attribute,
+                                            Beyond side) {
+  const pugi::xml_attribute given = limit.attribute(attribute);
+  if (!given) return 0.;
+  const std::optional<double> read = stop(given.value(), side, place(limit, attribute));
+  if (!read) leave_out(fmt::format("limit of {} that is no bound", attribute));
+  return read;
 }
 
 void UrdfReader::read_mimic(const pugi::xml_node& node, UrdfJoint& joint) {
@@ -384,25 +427,36 @@ void UrdfReader::read_dynamics(const pugi::xml_node& node, UrdfJoint& joint) {
   joint.friction = number(dynamics, "friction", 0.);
 }
 
-// Where rotor inertias stand in URDF: in the actuator of a transmission, beside the reduction N of
-// its gears; the joint has N^2 times the inertia of the motor.
+// Where rotor inertias stand in URDF: in the actuator of a transmission. Between motor and joint are
+// the gears of the actuator and those of the joint, whose reductions multiply to N: the joint has N^2
+// times the inertia of the motor.
 void UrdfReader::read_transmission(const pugi::xml_node& node) {
-  const pugi::xml_node actuator = node.child("actuator");
-  const auto number_in = [&](std::initializer_list<const char*> names) {
-    std::optional<double> found;
+  const pugi::xml_node actuator = node.child("actuator"), carried = node.child("joint");
+  const auto number_in = [&](std::initializer_list<pugi::xml_node> places,
+                             std::initializer_list<const char*> names) {
     for (const char* name : names) {
-      const pugi::xml_node element = actuator.child(name) ? actuator.child(name) : node.child(name);
-      if (element && !found)
-        found = element.attribute("value") ? number(element, "value", {}) : content(element);
+      for (const pugi::xml_node& part : places) {
+        if (const pugi::xml_node element = part.child(name))
+          return std::optional(element.attribute("value") ? number(element, "value", {})
+                                                          : content(element));
+      }
     }
-    return found;
+    return std::optional<double>();
   };
-  const std::optional<double> motor =
-      number_in({"motorInertia", "rotorInertia", "rotor_inertia", "drake:rotor_inertia"});
+  const auto reduction_in = [&](std::initializer_list<pugi::xml_node> places) {
+    return number_in(places, {"mechanicalReduction", "mechanical_reduction", "drake:gear_ratio"})
+        .value_or(1.);
+  };
+  const std::optional<double> motor = number_in(
+      {actuator, node}, {"motorInertia", "rotorInertia", "rotor_inertia", "drake:rotor_inertia"});
   if (!motor) return leave_out("<transmission>");
-  const double reduction = number_in({"mechanicalReduction", "drake:gear_ratio"}).value_or(1.);
-  const auto of = joints_.find(node.child("joint").attribute("name").value());
+  const double reduction = reduction_in({actuator, node}) * reduction_in({carried});
+  const auto of = joints_.find(carried.attribute("name").value());
   if (of == joints_.end() || of->second >= robot_.joints.size()) return leave_out("<transmission>");
+  for (const pugi::xml_node& read : {actuator, carried}) {
+    if (read.next_sibling(read.name()))
+      leave_out(fmt::format("further <{}> of a <transmission>", read.name()));
+  }
   if (*motor < 0.) {
     fail(place(actuator), "an inertia is not negative");
     return;

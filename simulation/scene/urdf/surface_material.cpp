@@ -38,6 +38,24 @@ std::string name_of_values(const SurfaceMaterial& material) {
 
 }  // namespace
 
+std::size_t restate(const SurfaceMaterial& later, SurfaceMaterial& stated) {
+  std::size_t changed = 0;
+  const auto take = [&](const auto& from, auto& to) {
+    if (!from) return;
+    if (to && *to != *from) ++changed;
+    to = from;
+  };
+  take(later.friction, stated.friction);
+  take(later.stiffness, stated.stiffness);
+  take(later.damping, stated.damping);
+  take(later.restitution, stated.restitution);
+  take(later.rolling, stated.rolling);
+  take(later.spinning, stated.spinning);
+  take(later.mujoco, stated.mujoco);
+  stated.place = later.place;
+  return changed;
+}
+
 std::string add_material(SurfaceMaterial material, std::vector<SurfaceMaterial>& known) {
   const auto same = std::ranges::find_if(
       known, [&](const SurfaceMaterial& other) { return same_surface(material, other); });

@@ -27,6 +27,10 @@ struct SurfaceMaterial {
 /// What of a surface counts: nothing, its friction, or all that the file states.
 enum class StatedContact { ground, friction, file };
 
+/// Adds what `later` states to `stated`, in whose place it comes where both state a constant. Result:
+/// how many constants have another value then.
+std::size_t restate(const SurfaceMaterial& later, SurfaceMaterial& stated);
+
 /// The name of `material` among `known`, which it joins if none of the same values is there; the name
 /// says them.
 std::string add_material(SurfaceMaterial material, std::vector<SurfaceMaterial>& known);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace hookpoint::simulation {
 namespace {
@@ -17,6 +18,17 @@ constexpr std::string_view blanks = " \t\r\n";
 constexpr double largest_number = 1e12;  // squares and products of such numbers stay finite
 
 }  // namespace
+
+Beyond beyond_numbers(const std::string& text) {
+  // As strtod has it, in whatever locale, but neither nan nor hexadecimal numbers.
+  if (text.find_first_not_of("0123456789+-.eEinfINFtyTY \t\r\n") != std::string::npos)
+    return Beyond::no;
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (std::string_view(end).find_first_not_of(blanks) != std::string_view::npos) return Beyond::no;
+  if (value > largest_number) return Beyond::above;
+  return value < -largest_number ? Beyond::below : Beyond::no;
+}
 
 pugi::xml_node UrdfXml::open(std::initializer_list<std::string_view> names, const char* format) {
   const std::string& text = file_.text;
@@ -81,17 +93,23 @@ double UrdfXml::content(const pugi::xml_node& node) {
   return parse(text_in(node), place(node)).value_or(0.);
 }
 
-std::optional<double> UrdfXml::bound(const pugi::xml_node& node, const char* attribute) {
-  const pugi::xml_attribute found = node.attribute(attribute);
-  if (!found) return std::nullopt;
-  // Beyond all numbers as strtod has it, in whatever locale.
-  const std::string_view text = found.value();
-  const bool endless = std::abs(found.as_double()) > largest_number;
-  if (endless &&
-      text.find_first_not_of("0123456789+-.eEinfINFtyTY \t\r\n") == std::string_view::npos)
-    return std::nullopt;
-  const double value = number(node, attribute, {});
+std::optional<double> UrdfXml::bound(const std::string& text, const Position& at) {
+  if (beyond_numbers(text) != Beyond::no) return std::nullopt;
+  const double value = parse(text, at).value_or(0.);
   return value > 0. ? std::optional(value) : std::nullopt;
+}
+
+std::optional<double> UrdfXml::stop(const std::string& text, Beyond side, const Position& at) {
+  if (beyond_numbers(text) == side) return std::nullopt;
+  return parse(text, at).value_or(0.);
+}
+
+double UrdfXml::surface_constant(const std::string& text, const std::string& name,
+                                 const Position& at) {
+  if (beyond_numbers(text) == Beyond::above) return largest_number;
+  const double value = parse(text, at).value_or(0.);
+  if (value < 0.) fail(at, fmt::format("{} is not negative", name));
+  return std::max(value, 0.);
 }
 
 std::vector<double> UrdfXml::numbers(const pugi::xml_node& node, const char* attribute,

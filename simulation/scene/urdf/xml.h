@@ -14,6 +14,11 @@
 
 namespace hookpoint::simulation {
 
+/// The side on which a number lies beyond all that are read, infinity too.
+enum class Beyond { no, below, above };
+/// Of what stands in a text; `no` where that is no number.
+Beyond beyond_numbers(const std::string& text);
+
 class UrdfXml {
  public:
   UrdfXml(const language::SourceFile& file, language::Report& report)
@@ -35,9 +40,16 @@ class UrdfXml {
   double content(const pugi::xml_node& node);
   /// The numbers that stand in an element, none after an error; more than `most` are an error.
   std::vector<double> content_numbers(const pugi::xml_node& node, std::size_t most);
-  /// A number above 0 that bounds something; nothing where it is not given, or bounds nothing: not
-  /// above 0, infinite, or beyond all numbers.
-  std::optional<double> bound(const pugi::xml_node& node, const char* attribute);
+  /// A number above 0 that bounds something, as a text states it; nothing where that bounds nothing:
+  /// not above 0, infinite, or beyond all numbers.
+  std::optional<double> bound(const std::string& text, const language::Position& at);
+  /// The stop of a joint on the side `side`, as a text states it; nothing where it lies beyond all
+  /// numbers on that side: no stop.
+  std::optional<double> stop(const std::string& text, Beyond side, const language::Position& at);
+  /// A constant of a surface as a text states it, `name` in messages: not negative, and the largest
+  /// number where it is beyond all (Gazebo's own kp is 1e13, friction without end is inf).
+  double surface_constant(const std::string& text, const std::string& name,
+                          const language::Position& at);
   /// Three numbers, `otherwise` where they are not given or after an error.
   Vector3d vector(const pugi::xml_node& node, const char* attribute, const Vector3d& otherwise);
 
