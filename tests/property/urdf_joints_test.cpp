@@ -2,9 +2,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
+#include <vector>
 
+#include "simulation/experiment/robot_tree.h"
 #include "tests/support/run_text.h"
 #include "tests/support/urdf_text.h"
 
@@ -161,6 +165,131 @@ TEST(UrdfJoints, AnEqualityOfAnMjcfCouplesTwoPendulums) {
   const Loaded apart = load(", mimic = ignore");
   ASSERT_TRUE(apart.experiment);
   EXPECT_NE(apart.diagnostics.find("<joint> of <equality> (1)"), std::string::npos);
+}
+
+/// A World around robot.FORMAT, whose Include has the arguments.
+Loaded load_named(const std::string& format, const std::string& text,
+                  const std::string& arguments) {
+  const testing::Workplace place;
+  place.file("robot." + format, text);
+  return load_file(place.file("scene.hook", "World w { deltat = 1 ms; Include \"robot." + format +
+                                                "\" (" + arguments + "); }"));
+}
+
+// A hand with three fingers, of which the second and third follow others, and whose names are drawn from
+// a few: links, joints and the robot are called alike. What leads is what the file says.
+TEST(UrdfJoints, NamesThatAreAlikeHideNoLeader) {
+  std::mt19937 random(4);
+  int coupled = 0, refused = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::vector<std::string> links{"a", "b", "c", "d", "e", "f"}, joints = links;
+    std::ranges::shuffle(links, random);
+    std::ranges::shuffle(joints, random);
+    const std::string one = inertial(1., "1 1 1");
+    std::string text = "<robot name=\"r\">" + link("palm", one);
+    std::vector<std::string> bodies{"palm"};
+    for (std::size_t i = 0; i < 5; ++i) {
+      const std::string mimic = i < 3 ? ""
+                                      : "<mimic joint=\"" + joints[i - 3] + "\" multiplier=\"" +
+                                            std::to_string(i) + "\"/>";
+      text += link(links[i], one) +
+              joint(joints[i], "continuous", mimic, bodies[random() % bodies.size()], links[i]);
+      bodies.push_back(links[i]);
+    }
+    const std::string name = round % 2 == 0 ? links[random() % 6] : joints[random() % 6];
+    const Loaded loaded = load_named("urdf", text + "</robot>", "name = " + name);
+    if (!loaded.experiment) {
+      EXPECT_NE(loaded.diagnostics.find("cannot be named from here"), std::string::npos)
+          << loaded.diagnostics << text;
+      // The message's advice.
+      EXPECT_TRUE(load_named("urdf", text + "</robot>", "name = other").experiment) << text;
+      ++refused;
+      continue;
+    }
+    std::vector<std::string> names;
+    simulation::for_each_link(loaded.experiment->robots.at(0), [&](const simulation::TreeLink& at) {
+      names.push_back(at.link.body.name);
+    });
+    ASSERT_EQ(loaded.experiment->couplings.size(), 2u);
+    for (const simulation::CouplingSpec& coupling : loaded.experiment->couplings) {
+      const auto follower = std::size_t(coupling.ratio);
+      EXPECT_EQ(names.at(coupling.follower), links[follower]) << text;
+      EXPECT_EQ(names.at(coupling.leader), links[follower - 3]) << text;
+    }
+    ++coupled;
+  }
+  EXPECT_GT(coupled, 200);
+  EXPECT_LT(refused, 60);
+}
+
+// Links and joints called as their controller, its ports, the robot and the World: it moves as the same
+// robot with names that say nothing else.
+TEST(UrdfJoints, NamesThatAreAlikeHideNoServo) {
+  const auto text = [](const std::vector<std::string>& names) {
+    return fmt::format(
+        "<mujoco model=\"m\"><compiler angle=\"radian\"/><worldbody><body name=\"{}\" pos=\"0 0 1\">"
+        "<freejoint/><geom size=\"0.1\"/><body name=\"{}\"><joint name=\"{}\" axis=\"0 1 0\"/>"
+        "<geom size=\"0.05\" pos=\"0 0 -0.2\"/><body name=\"{}\" pos=\"0 0 -0.3\"><joint name=\"{}\" "
+        "axis=\"0 1 0\"/><geom size=\"0.05\" pos=\"0 0 -0.2\"/><body name=\"{}\" pos=\"0 0 -0.3\">"
+        "<joint name=\"{}\" axis=\"1 0 0\"/><geom size=\"0.05\" pos=\"0 0 -0.2\"/></body></body>"
+        "</body></body></worldbody><equality><joint joint1=\"{}\" joint2=\"{}\" polycoef=\"0 -2 0 0 "
+        "0\"/></equality><actuator><position joint=\"{}\" kp=\"10\"/><velocity joint=\"{}\" "
+        "kv=\"0.3\"/></actuator></mujoco>",
+        names[0], names[1], names[2], names[3], names[4], names[5], names[6], names[6], names[2],
+        names[2], names[4]);
+  };
+  const auto angles = [&](const std::vector<std::string>& names, const std::string& robot) {
+    const Loaded loaded =
+        load_named("xml", text(names), "name = " + robot + ", base = fixed, start = 0.4 rad");
+    Running run(loaded);
+    run.step(100);
+    std::vector<double> found;
+    simulation::for_each_link(loaded.experiment->robots.at(0), [&](const simulation::TreeLink& at) {
+      found.push_back(run["w." + robot + "." + at.chain.name + "." + at.link.body.name + ".angle"]);
+    });
+    return found;
+  };
+  // The second body hangs on joint `start`.
+  const auto plain = angles({"body", "first", "start", "second", "j2", "third", "j3"}, "plain");
+  EXPECT_GT(std::abs(plain.at(0) - 0.4), 1e-3);
+  EXPECT_EQ(angles({"body", "servo", "start", "angle", "rate", "robot", "w"}, "robot"), plain);
+  EXPECT_EQ(angles({"body", "start", "start", "servo", "servo", "goal", "start2"}, "other"), plain);
+  EXPECT_EQ(angles({"body", "robot", "start", "current", "robot", "output", "torque"}, "robot"),
+            plain);
+}
+
+// An argument that the Include or the base has means that; the joint of its name has another.
+TEST(UrdfJoints, AnArgumentMeansOneThing) {
+  const std::string one = inertial(1., "1 1 1");
+  const auto text = [&](const std::string& name) {
+    return "<robot name=\"r\">" + link("b", one) + link("l", one) + joint(name, "continuous", "") +
+           "</robot>";
+  };
+  const Loaded turned = load_named("urdf", text("orientation"),
+                                   "orientation = 0, 0, 90 deg, orientation_angle = 0.3 rad");
+  ASSERT_TRUE(turned.experiment) << turned.diagnostics;
+  EXPECT_NEAR(turned.experiment->robots.at(0).orientation.z, std::sqrt(0.5), 1e-15);
+  EXPECT_EQ(turned.experiment->robots.at(0).chains.at(0).links.at(0).angle, 0.3);
+  const Loaded held = load_named("urdf", text("hold"), "hold = 0.05");
+  ASSERT_TRUE(held.experiment) << held.diagnostics;
+  EXPECT_EQ(held.experiment->robots.at(0).chains.at(0).links.at(0).angle, 0.);
+  EXPECT_NE(
+      held.diagnostics.find(
+          "`hold` is not joint `hold` here: the argument `hold_angle` says where that starts"),
+      std::string::npos)
+      << held.diagnostics;
+  // Two joints that the language calls alike.
+  const Loaded two = load_named("urdf",
+                                "<robot name=\"r\">" + link("b", one) + link("l", one) +
+                                    link("m", one) + joint("j 1", "continuous", "") +
+                                    joint("j_1", "continuous", "", "l", "m") + "</robot>",
+                                "j_1 = 0.3 rad");
+  EXPECT_FALSE(two.experiment);
+  EXPECT_NE(
+      two.diagnostics.find("the argument `j_1` means where joint `j 1` starts, and where joint "
+                           "`j_1` starts"),
+      std::string::npos)
+      << two.diagnostics;
 }
 
 simulation::MassSpec mass_of(const Loaded& loaded) {

@@ -35,13 +35,14 @@ class SdfInclude : private RobotInclude {
     tell_left_out(scene->left_out, scene->place);
     const bool one = scene->robots.size() == 1;
     prefix_ = is_given("name") ? robot_name("") + "_" : "";
-    surface_ = (one ? robot_name(scene->robots.front().name) + "_" : prefix_) + "surface_";
+    const std::string of_surfaces = one ? robot_name(scene->robots.front().name) + "_" : prefix_;
     std::vector<ForeignObject> objects =
-        material_objects(scene->materials, surface_, scene->robots);
+        material_objects(scene->materials, of_surfaces + "surface_", scene->robots);
     if (scene->ground) add_ground(*scene->ground, objects);
     for (SdfSolid& solid : scene->solids) {
       ForeignObject object{"", unique(prefix_ + identifier(solid.name)), solid.shape.place, {}, {}};
-      if (!solid.shape.material.empty()) solid.shape.material.insert(0, surface_);
+      if (!solid.shape.material.empty())
+        solid.shape.material = material_names_.at(solid.shape.material);
       object.type = "Obstacle." + add_shape_fields(solid.shape, object);
       objects.push_back(std::move(object));
     }
@@ -100,12 +101,12 @@ class SdfInclude : private RobotInclude {
       add("angle", {angle});
       add("azimuth", {std::atan2(n.y, n.x)});
     }
-    if (!ground.material.empty()) add_text("material", surface_ + ground.material, ValueKind::word);
+    if (!ground.material.empty())
+      add_text("material", material_names_.at(ground.material), ValueKind::word);
     objects.push_back(std::move(object));
   }
 
-  std::string prefix_;   ///< of all names but that of a single robot, where `name` is given
-  std::string surface_;  ///< of the names of Materials
+  std::string prefix_;  ///< of all names but that of a single robot, where `name` is given
   std::map<std::string, std::size_t> names_;  ///< and how often each was requested
 };
 

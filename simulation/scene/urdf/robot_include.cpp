@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "language/names.h"
 #include "simulation/scene/urdf/inertia_repair.h"
 #include "simulation/scene/urdf/joint_rules.h"
+#include "simulation/scene/urdf/robot_trails.h"
 #include "simulation/wiring/port_search.h"
 
 namespace hookpoint::simulation {
@@ -25,6 +27,12 @@ constexpr std::array base_fields{"location", "orientation", "velocity", "angular
                                  "rest_on",  "at",          "yaw",      "settled"};
 /// What follows the name of a joint in the argument that gives its rotor's inertia.
 constexpr const char* rotor_argument = "_rotor_inertia";
+/// What follows it in the argument for its initial angle where the name alone is another argument.
+constexpr const char* angle_suffix = "_angle";
+
+bool moves(const UrdfJoint& joint) {
+  return joint.type != UrdfJointType::fixed && joint.type != UrdfJointType::floating;
+}
 
 /// A chain is called as its first joint; the base has its name already.
 std::string chain_name(const UrdfJoint& hip) {
@@ -59,6 +67,14 @@ ForeignObject shape_object(const UrdfShape& of) {
     object.fields.push_back({"contact", {no}, of.place});
   }
   return object;
+}
+
+/// The turn about the world's z, from -pi to pi, of which `q` is a tilt away: q = tilt turn, where the
+/// tilt's axis is level. 0 where the base's z points down.
+double yaw_of(const Quaterniond& q) {
+  constexpr double rounding = 1e-6;
+  if (std::hypot(q.w, q.z) < rounding) return 0.;
+  return q.w < 0. ? 2. * std::atan2(-q.z, -q.w) : 2. * std::atan2(q.z, q.w);
 }
 
 /// What a body weighs and how it looks to the ground.
@@ -107,7 +123,7 @@ ForeignObject material_object(const SurfaceMaterial& material, const std::string
   return object;
 }
 
-/// The controller `servo` of a joint, in the link that it drives.
+/// The controller `servo` of a joint, in the link that it drives, whose trail is `link`.
 ForeignObject servo_object(const UrdfJoint& joint, const std::string& link,
                            const ForeignField& angle) {
   const UrdfServo& servo = *joint.servo;
@@ -206,6 +222,7 @@ std::vector<ForeignObject> RobotInclude::robot_objects(UrdfRobot& robot, const s
   const double sag = hold_argument();
   if (sag > 0.) holds_ = hold_joints(*tree, mobile, sag);
   for (const UrdfChain& chain : tree->chains) object.children.push_back(chain_object(robot, chain));
+  settle_trails(object, report_);
   return {std::move(object)};
 }
 
@@ -220,7 +237,7 @@ void RobotInclude::find_trails(const UrdfRobot& robot, const UrdfChain& chain,
 
 /// Where a joint starts [rad, m].
 double RobotInclude::start_argument(const UrdfJoint& joint) {
-  const auto given = arguments_.find(identifier(joint.name));
+  const auto given = arguments_.find(angle_argument(joint));
   const bool is_number = given != arguments_.end() && given->second.values.size() == 1 &&
                          given->second.values[0].kind == ValueKind::number;
   return is_number ? given->second.values[0].quantity.value : start_of(joint);
@@ -245,7 +262,7 @@ void RobotInclude::lock_joints(std::span<UrdfRobot> robots) {
             !glob_fits(pattern.text, identifier(joint.name)))
           continue;
         ++fitting;
-        if (joint.type == UrdfJointType::fixed || joint.type == UrdfJointType::floating) continue;
+        if (!moves(joint)) continue;
         fix_joint(start_argument(joint), joint);
         ++robots.front().left_out["joint that `lock` fixes"];
       }
@@ -280,7 +297,7 @@ void RobotInclude::take_rotors(UrdfRobot& robot) {
                   fmt::format("the argument `{}` is {} and not negative", argument, unit));
   };
   for (UrdfJoint& joint : robot.joints) {
-    if (joint.type == UrdfJointType::fixed || joint.type == UrdfJointType::floating) continue;
+    if (!moves(joint)) continue;
     if (joint.type != UrdfJointType::prismatic) give("rotor_inertia", joint);
     give(identifier(joint.name) + rotor_argument, joint);
   }
@@ -312,14 +329,38 @@ void RobotInclude::add_start(const UrdfStart& start, bool placed, ForeignObject&
     if (!placed || !is_given(name)) base.fields.push_back(numbers(name, values, base.position));
   };
   const auto& [p, q] = start.pose;
-  if (!placed || !is_given("rest_on")) {
+  const bool fixed = base.type == "Base.fixed";
+  const bool rests = placed && is_given("rest_on");
+  if (!rests) {
     add("location", {p.x, p.y, p.z});
     add("orientation", {q.w, q.x, q.y, q.z});
   }
-  if (base.type == "Base.fixed") return;
+  if (fixed) return;
+  if (rests) {
+    // The ground decides how high it stands and how it leans.
+    if (p.x != 0. || p.y != 0.) add("at", {p.x, p.y});
+    const double yaw = yaw_of(q);
+    if (yaw != 0.) add("yaw", {yaw});
+    tell_tilt(q, yaw);
+  }
   const Vector3d &v = start.velocity, &w = start.angular_velocity;
   if (v != Vector3d{}) add("velocity", {v.x, v.y, v.z});
   if (w != Vector3d{}) add("angular_velocity", {w.x, w.y, w.z});
+}
+
+/// That the file has the base tilted, and `rest_on` does not.
+void RobotInclude::tell_tilt(const Quaterniond& q, double yaw) {
+  constexpr double least = 1e-6, degree = 0.017453292519943295;  // [rad]
+  // Between the base's z and the world's: z . R z = 1 - 2 sin(tilt/2)^2.
+  const double tilt = 2. * std::atan2(std::hypot(q.x, q.y), std::hypot(q.w, q.z));
+  if (tilt < least) return;
+  report_.remark(
+      arguments_.at("rest_on").position,
+      fmt::format("the file has its base tilted by {:.3g} deg, with the orientation "
+                  "{:.6g},{:.6g},{:.6g},{:.6g} (w,x,y,z); rest_on starts it level, with "
+                  "{:.6g},0,0,{:.6g} on level ground: leave out rest_on to start as the file "
+                  "says, or give location and orientation in its place",
+                  tilt / degree, q.w, q.x, q.y, q.z, std::cos(0.5 * yaw), std::sin(0.5 * yaw)));
 }
 
 ForeignObject RobotInclude::chain_object(const UrdfRobot& robot, const UrdfChain& of) {
@@ -378,7 +419,7 @@ void RobotInclude::add_joint(const UrdfJoint& joint, const UrdfHold& held, Forei
   const auto given = std::ranges::find(object.fields, "angle", &ForeignField::name);
   const ForeignField angle =
       given == object.fields.end() ? numbers("angle", {0.}, joint.place) : *given;
-  object.children.push_back(servo_object(joint, object.name, angle));
+  object.children.push_back(servo_object(joint, trails_[joint.name], angle));
 }
 
 void RobotInclude::add_coupling(const UrdfJoint& joint, bool held, ForeignObject& object) {
@@ -388,7 +429,7 @@ void RobotInclude::add_coupling(const UrdfJoint& joint, bool held, ForeignObject
   if (offset != 0.) object.fields.push_back(numbers("mimic_offset", {offset}, place));
   if (held)
     object.fields.push_back(numbers("rest_angle", {ratio * starts_[leader] + offset}, place));
-  const auto given = arguments_.find(identifier(joint.name));
+  const auto given = arguments_.find(angle_argument(joint));
   if (given != arguments_.end())
     report_.error(
         given->second.position,
@@ -401,7 +442,7 @@ void RobotInclude::add_angle(const UrdfJoint& joint, bool held, ForeignObject& o
     object.fields.push_back({"angle", values, place});
     if (held) object.fields.push_back({"rest_angle", values, place});
   };
-  const auto given = arguments_.find(identifier(joint.name));
+  const auto given = arguments_.find(angle_argument(joint));
   if (given != arguments_.end()) {
     if (!given->second.values.empty()) add(given->second.values, given->second.position);
     return;
@@ -413,7 +454,7 @@ void RobotInclude::add_angle(const UrdfJoint& joint, bool held, ForeignObject& o
   report_.remark(joint.limit_place,
                  fmt::format("joint `{}` starts at its limit, {:g}: {:g} is beyond it (the "
                              "argument `{}` says where else)",
-                             joint.name, nearest, at, identifier(joint.name)));
+                             joint.name, nearest, at, angle_argument(joint)));
 }
 
 UrdfMimic RobotInclude::mimic_argument() {
@@ -425,11 +466,19 @@ UrdfMimic RobotInclude::mimic_argument() {
 std::vector<ForeignObject> RobotInclude::material_objects(
     const std::vector<SurfaceMaterial>& materials, const std::string& prefix,
     std::span<UrdfRobot> robots) {
+  std::set<std::string> taken;  // names that would hide a Material from the shapes
+  for (const UrdfRobot& robot : robots) {
+    for (const UrdfLink& link : robot.links) taken.insert(identifier(link.name));
+    for (const UrdfJoint& joint : robot.joints) taken.insert(identifier(joint.name));
+  }
   std::vector<ForeignObject> objects;
-  for (const SurfaceMaterial& material : materials)
-    objects.push_back(material_object(material, prefix + material.name));
+  for (const SurfaceMaterial& material : materials) {
+    std::string& name = material_names_[material.name] = prefix + material.name;
+    while (!taken.insert(name).second) name += '_';
+    objects.push_back(material_object(material, name));
+  }
   const auto rename = [&](std::string& name) {
-    if (!name.empty()) name.insert(0, prefix);
+    if (!name.empty()) name = material_names_.at(name);
   };
   for (UrdfRobot& robot : robots) {
     for (UrdfLink& link : robot.links) {
@@ -546,6 +595,20 @@ double RobotInclude::hold_argument() {
   return 0.;
 }
 
+bool RobotInclude::is_own(const std::string& argument) const {
+  return std::ranges::count(own_arguments_, argument) > 0 ||
+         std::ranges::count(base_fields, argument) > 0;
+}
+
+std::string RobotInclude::angle_argument(const UrdfJoint& joint) const {
+  std::string name = identifier(joint.name);
+  if (!is_own(name)) return name;
+  do {
+    name += angle_suffix;
+  } while (joint_names_.contains(name));
+  return name;
+}
+
 bool RobotInclude::is_given(const std::string& name) const {
   const auto given = arguments_.find(name);
   return given != arguments_.end() && !given->second.values.empty();
@@ -556,12 +619,10 @@ void RobotInclude::check_arguments(std::span<const UrdfRobot> robots,
   std::vector<std::string> known(own_arguments_.begin(), own_arguments_.end());
   if (!robots.empty()) known.insert(known.end(), base_fields.begin(), base_fields.end());
   for (const UrdfRobot& robot : robots) {
-    for (const UrdfJoint& joint : robot.joints) {
-      if (joint.type == UrdfJointType::fixed || joint.type == UrdfJointType::floating) continue;
-      known.push_back(identifier(joint.name));
-      known.push_back(known.back() + rotor_argument);
-    }
+    for (const UrdfJoint& joint : robot.joints)
+      if (moves(joint)) joint_names_.insert(identifier(joint.name));
   }
+  for (const UrdfRobot& robot : robots) check_joint_arguments(robot, further, known);
   known.insert(known.end(), further.begin(), further.end());
   for (const auto& [name, given] : arguments_) {
     if (std::ranges::count(known, name) > 0) continue;
@@ -575,6 +636,39 @@ void RobotInclude::check_arguments(std::span<const UrdfRobot> robots,
                                       fmt::join(own_arguments_, ", "))
                         : "did you mean `" + nearest + "`?"));
   }
+}
+
+void RobotInclude::check_joint_arguments(const UrdfRobot& robot,
+                                         const std::vector<std::string>& further,
+                                         std::vector<std::string>& known) {
+  std::map<std::string, std::string> meanings;
+  for (const std::string& name : further) meanings.emplace(name, "an xacro:arg of the file");
+  for (const char* name : base_fields) add_meaning(name, "a field of the base", meanings);
+  for (const UrdfJoint& joint : robot.joints) {
+    if (!moves(joint)) continue;
+    const std::string name = identifier(joint.name), argument = angle_argument(joint);
+    if (argument != name && arguments_.contains(name))
+      report_.remark(arguments_.at(name).position,
+                     fmt::format("`{}` is not joint `{}` here: the argument `{}` says where that "
+                                 "starts",
+                                 name, joint.name, argument));
+    add_meaning(argument, fmt::format("where joint `{}` starts", joint.name), meanings);
+    add_meaning(name + rotor_argument, fmt::format("the rotor of joint `{}`", joint.name),
+                meanings);
+    known.push_back(argument);
+    known.push_back(name + rotor_argument);
+  }
+}
+
+void RobotInclude::add_meaning(const std::string& argument, const std::string& meaning,
+                               std::map<std::string, std::string>& meanings) {
+  const auto [known, is_new] = meanings.emplace(argument, meaning);
+  const auto given = arguments_.find(argument);
+  if (is_new || given == arguments_.end()) return;
+  report_.error(given->second.position,
+                fmt::format("the argument `{}` means {}, and {}: leave it out, and set what you "
+                            "mean by its trail (--set)",
+                            argument, known->second, meaning));
 }
 
 }  // namespace hookpoint::simulation

@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,7 +50,7 @@ class RobotInclude {
   std::string word_argument(const std::string& name, const std::vector<std::string>& choices);
   bool is_given(const std::string& name) const;
   /// The Materials, each name with `prefix` before it, as the shapes and points of the robots call them
-  /// from then on.
+  /// from then on; a name that a link or joint has gets a _ at its end.
   std::vector<language::ForeignObject> material_objects(
       const std::vector<SurfaceMaterial>& materials, const std::string& prefix,
       std::span<UrdfRobot> robots);
@@ -69,12 +70,22 @@ class RobotInclude {
   void tell_left_out(const std::map<std::string, std::size_t>& left_out,
                      const language::Position& place);
 
+  std::map<std::string, std::string> material_names_;  ///< of Materials, by the file's reader's
   const language::ForeignArguments& arguments_;
   const std::span<const char* const> own_arguments_;
   language::FileStore& files_;
   language::Report& report_;
 
  private:
+  /// An argument of its own, or a field of the base: no joint's name then.
+  bool is_own(const std::string& argument) const;
+  /// The argument that says where a joint starts: its name, with `_angle` where that is another's.
+  std::string angle_argument(const UrdfJoint& joint) const;
+  /// Adds the arguments of the joints to `known`; an error for one that is given and means two things.
+  void check_joint_arguments(const UrdfRobot& robot, const std::vector<std::string>& further,
+                             std::vector<std::string>& known);
+  void add_meaning(const std::string& argument, const std::string& meaning,
+                   std::map<std::string, std::string>& meanings);
   void take_rotors(UrdfRobot& robot);
   double start_argument(const UrdfJoint& joint);
   /// Names of the links that the joints carry, below the robot.
@@ -85,12 +96,14 @@ class RobotInclude {
   void tell_repaired(const UrdfRobot& robot);
   language::ForeignObject base_object(const UrdfRobot& robot, const UrdfTree& tree, bool placed);
   void add_start(const UrdfStart& start, bool placed, language::ForeignObject& base);
+  void tell_tilt(const Quaterniond& q, double yaw);
   language::ForeignObject chain_object(const UrdfRobot& robot, const UrdfChain& of);
   void add_joint(const UrdfJoint& joint, const UrdfHold& held, language::ForeignObject& link);
   void add_angle(const UrdfJoint& joint, bool held, language::ForeignObject& link);
   void require_mass(const UrdfLink& link, const UrdfBody& body);
   double hold_argument();
 
+  std::set<std::string> joint_names_;  ///< of joints that move, of all robots
   std::map<const UrdfJoint*, UrdfHold> holds_;
   std::map<std::string, std::string> trails_;  ///< of the link that a joint carries
   std::map<std::string, double> starts_;       ///< of joints that others follow [rad, m]
