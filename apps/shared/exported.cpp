@@ -70,8 +70,8 @@ translation::ModelContact contact_of(const simulation::Experiment& experiment,
 
 std::optional<translation::Model> exported(Application& application, const ExportRequest& request) {
   const ModelFormat& format = format_of(request.format);
-  const std::filesystem::path file =
-      file_with_world(application, application.locate(request.file), request.consent);
+  const std::filesystem::path file = file_with_world(application, application.locate(request.file),
+                                                     request.consent, RobotJoints::as_written);
   const auto root = application.evaluate_set(file, request.settings);
   if (!root) return std::nullopt;
   const auto experiment = application.load(*root);

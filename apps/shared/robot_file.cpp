@@ -63,8 +63,13 @@ struct Trial {
 
 class Trials {
  public:
-  Trials(std::filesystem::path file, std::filesystem::path place, bool stands, Consent consent)
-      : file_(std::move(file)), place_(std::move(place)), stands_(stands), consent_(consent) {}
+  Trials(std::filesystem::path file, std::filesystem::path place, bool stands, RobotJoints joints,
+         Consent consent)
+      : file_(std::move(file)),
+        place_(std::move(place)),
+        stands_(stands),
+        joints_(joints),
+        consent_(consent) {}
 
   /// The best that there is: its keyframe rather than its zero pose, its own shapes rather than boxes of
   /// inertia, but for a robot whose feet are meshes that are not there.
@@ -83,7 +88,7 @@ class Trials {
   std::optional<Trial> with(const std::string& pose, const std::string& shapes) const {
     Arguments arguments;
     if (stands_) arguments.emplace_back("rest_on = ground");
-    arguments.push_back(fmt::format("hold = {}", hold));
+    if (joints_ == RobotJoints::held) arguments.push_back(fmt::format("hold = {}", hold));
     for (const std::string& further : {pose, shapes})
       if (!further.empty()) arguments.push_back(further);
     return of(arguments);
@@ -105,13 +110,15 @@ class Trials {
 
   const std::filesystem::path file_, place_;
   const bool stands_;
+  const RobotJoints joints_;
   const Consent consent_;
 };
 
 }  // namespace
 
 std::optional<RobotWorld> world_of_robot(Application& application,
-                                         const std::filesystem::path& file, Consent consent) {
+                                         const std::filesystem::path& file, Consent consent,
+                                         RobotJoints joints) {
   if (application.library().declares(file, "World")) return std::nullopt;
   Application quiet(consent, [](const language::Diagnostics&) {});
   const auto alone = quiet.evaluate(file, {});
@@ -126,7 +133,7 @@ std::optional<RobotWorld> world_of_robot(Application& application,
                       });
   const std::filesystem::path place =
       file.parent_path() / (file.stem().string() + "_on_a_plane.hook");
-  const auto best = Trials(file, place, stands, consent).best();
+  const auto best = Trials(file, place, stands, joints, consent).best();
   if (!best) return std::nullopt;
   return RobotWorld{
       place, world_with(best->include, stands ? best->weight / parts_of_weight : 0.),
@@ -135,8 +142,8 @@ std::optional<RobotWorld> world_of_robot(Application& application,
 }
 
 std::filesystem::path file_with_world(Application& application, const std::filesystem::path& file,
-                                      Consent consent) {
-  const auto world = world_of_robot(application, file, consent);
+                                      Consent consent, RobotJoints joints) {
+  const auto world = world_of_robot(application, file, consent, joints);
   if (!world) return file;
   language::Diagnostics said;
   said.note({}, world->note);

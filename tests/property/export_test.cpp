@@ -201,6 +201,59 @@ TEST(Export, JointsAndTheStartAreTheSame) {
       1e-15);
 }
 
+/// A Link of its own Chain, with these fields.
+std::string one_link(const std::string& name, const std::string& fields) {
+  return "Chain to_" + name + " { Link " + name + " { mass = 1; inertia = 1, 1, 1, 0, 0, 0; " +
+         fields + " } }\n";
+}
+
+// urdfdom refuses a revolute or prismatic joint without <limit>, and a <limit> without effort or velocity;
+// a stop that is not written is 0 there.
+TEST(Export, EveryLimitOfAUrdfIsWritten) {
+  std::string links;
+  int count = 0;
+  for (const char* kind : {"", "joint = prismatic; "}) {
+    for (const char* stops :
+         {"", "lower_limit = -1; ", "upper_limit = 2; ", "lower_limit = -1; upper_limit = 2; "}) {
+      for (const char* drive : {"", "effort_limit = 3; ", "velocity_limit = 4; ",
+                                "effort_limit = 3; velocity_limit = 4; "})
+        links += one_link("l" + std::to_string(++count), std::string(kind) + stops + drive);
+    }
+  }
+  const Loaded loaded =
+      load_text("World w { Robot r { Base.mobile { mass = 2; inertia = 1, 1, 1, 0, 0, 0; }\n" +
+                links + "} }");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const std::string text = written(translation::urdf_format, *loaded.experiment);
+  pugi::xml_document document;
+  ASSERT_TRUE(document.load_string(text.c_str()));
+  int judged = 0;
+  for (const pugi::xml_node& joint : document.child("robot").children("joint")) {
+    const std::string type = joint.attribute("type").value();
+    const pugi::xml_node limit = joint.child("limit");
+    EXPECT_TRUE(limit || type == "continuous") << text;
+    for (const char* name : {"lower", "upper"})
+      EXPECT_EQ(bool(limit.attribute(name)), type != "continuous") << text;
+    for (const char* name : {"effort", "velocity"})
+      EXPECT_EQ(bool(limit.attribute(name)), bool(limit)) << text;
+    ++judged;
+  }
+  EXPECT_EQ(judged, count);
+  const Loaded again = read_again("robot.urdf", text);
+  ASSERT_TRUE(again.experiment) << again.diagnostics;
+  const auto& ours = loaded.experiment->robots[0].chains;
+  const auto& theirs = again.experiment->robots[0].chains;
+  ASSERT_EQ(theirs.size(), ours.size());
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    const simulation::LinkSpec &a = ours[i].links[0], &b = theirs[i].links[0];
+    EXPECT_EQ(b.body.name, a.body.name);
+    EXPECT_EQ(b.lower_limit, a.lower_limit);
+    EXPECT_EQ(b.upper_limit, a.upper_limit);
+    EXPECT_EQ(b.effort_limit, a.effort_limit);
+    EXPECT_EQ(b.velocity_limit, a.velocity_limit);
+  }
+}
+
 // Frames put together as SDFormat says, each in the one that it names, without our reader.
 TEST(Export, LinksOfAnSdfStandWhereOursDo) {
   RandomMjcf random(8);

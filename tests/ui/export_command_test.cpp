@@ -48,6 +48,34 @@ TEST(ExportCommand, TurnsOneFormatIntoAnother) {
   EXPECT_NE(work.read("quad.xml").find("solref="), std::string::npos);
 }
 
+// The file's own springs and dampers, whatever holds it when it is looked at.
+TEST(ExportCommand, HoldsNoJointOfARobotsFile) {
+  const Workplace work;
+  work.file(
+      "arm.xml",
+      "<mujoco model=\"arm\"><worldbody><body name=\"trunk\" pos=\"0 0 1\"><freejoint/><geom "
+      "type=\"box\" size=\"0.2 0.1 0.05\" mass=\"4\"/><body name=\"arm\"><joint name=\"shoulder\" "
+      "axis=\"0 1 0\" damping=\"0.125\" stiffness=\"0.5\"/><geom size=\"0.03\" pos=\"0.15 0 0.1\" "
+      "mass=\"1\"/></body></body></worldbody><actuator><position joint=\"shoulder\" "
+      "kp=\"20\"/></actuator></mujoco>");
+  for (const auto& [format, element] :
+       {std::pair{"urdf", "dynamics"}, std::pair{"mjcf", "joint"}}) {
+    const CommandResult result = work.hookpoint(std::string("export arm.xml --to ") + format);
+    EXPECT_EQ(result.status, 0) << result.err;
+    EXPECT_EQ(result.err.find("hold ="), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("Controller.PD"), std::string::npos) << result.err;
+    pugi::xml_document document;
+    ASSERT_TRUE(document.load_string(result.out.c_str())) << result.out;
+    const pugi::xml_node joint = document.find_node([&](const pugi::xml_node& node) {
+      return std::string(node.name()) == element && node.attribute("damping");
+    });
+    EXPECT_EQ(joint.attribute("damping").as_double(), 0.125) << result.out;
+    if (std::string(format) == "mjcf") {
+      EXPECT_EQ(joint.attribute("stiffness").as_double(), 0.5) << result.out;
+    }
+  }
+}
+
 TEST(ExportCommand, WrongInputIsSaidAndEndsWithStatus2) {
   const Workplace work;
   work.file("two.hook", two);

@@ -102,7 +102,7 @@ class Urdf {
   void write_joint(std::size_t parent, std::size_t index) {
     const TreeBody& body = tree_.body(index);
     const simulation::LinkSpec& link = *body.link;
-    const bool has_stops = link.lower_limit && link.upper_limit;
+    const bool has_stops = link.lower_limit || link.upper_limit;
     const char* type = !body.turns() ? "prismatic" : has_stops ? "revolute" : "continuous";
     const std::string name = tree_.name(index) + "_joint";
     const pugi::xml_node joint = element(root_, "joint", {{"name", name}, {"type", type}});
@@ -112,20 +112,7 @@ class Urdf {
     element(joint, "axis", {{"xyz", "0 0 1"}});
     element(joint, "dynamics",
             {{"damping", numbers({link.damping})}, {"friction", numbers({link.friction})}});
-    if (has_stops || link.effort_limit || link.velocity_limit) {
-      pugi::xml_node limit = element(joint, "limit");
-      const auto add = [&](const char* attribute, const std::optional<double>& value) {
-        if (value) limit.append_attribute(attribute).set_value(numbers({*value}).c_str());
-      };
-      if (has_stops) {
-        add("lower", link.lower_limit);
-        add("upper", link.upper_limit);
-      }
-      add("effort", link.effort_limit);
-      add("velocity", link.velocity_limit);
-    }
-    if (!has_stops && (link.lower_limit || link.upper_limit))
-      left_out_.add("the stop of a joint that has one");
+    write_limit(joint, link, std::string_view(type) != "continuous");
     if (link.stiffness != 0.) left_out_.add("the spring of a joint");
     leave_out_joint(link, left_out_);
     for (const simulation::CouplingSpec& coupling : experiment_.couplings)
@@ -136,6 +123,23 @@ class Urdf {
                  {"multiplier", numbers({coupling.ratio})},
                  {"offset", numbers({coupling.offset})}});
     if (link.rotor_inertia != 0.) write_transmission(name, link.rotor_inertia);
+  }
+
+  /// A file without <limit> of a joint with stops, or without one of its numbers, is refused by ROS, and
+  /// a stop that is not written is 0 there: what has no limit gets one that bounds nothing.
+  static void write_limit(pugi::xml_node joint, const simulation::LinkSpec& link, bool has_stops) {
+    if (!has_stops && !link.effort_limit && !link.velocity_limit) return;
+    constexpr double endless = 1e16;  // as SDFormat has it
+    pugi::xml_node limit = element(joint, "limit");
+    const auto add = [&](const char* attribute, double value) {
+      limit.append_attribute(attribute).set_value(numbers({value}).c_str());
+    };
+    if (has_stops) {
+      add("lower", link.lower_limit.value_or(-endless));
+      add("upper", link.upper_limit.value_or(endless));
+    }
+    add("effort", link.effort_limit.value_or(endless));
+    add("velocity", link.velocity_limit.value_or(endless));
   }
 
   void write_transmission(const std::string& joint, double rotor_inertia) {
