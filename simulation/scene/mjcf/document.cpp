@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <sstream>
 
 #include "math/rotation.h"
 #include "simulation/scene/mjcf/vocabulary.h"
@@ -21,9 +22,76 @@ Quaterniond turn_about(char axis, double angle) {
       Vector3d{axis == 'x' ? angle : 0., axis == 'y' ? angle : 0., axis == 'z' ? angle : 0.});
 }
 
+/// The number of a word, infinite if it is beyond all that a file may have; nothing for no number.
+std::optional<double> bounding_number(std::string_view word) {
+  constexpr double largest = 1e12;
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0.;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const bool whole = error == std::errc() && end == word.data() + word.size();
+  if (!whole || std::isnan(value)) return std::nullopt;
+  const double endless = std::copysign(std::numeric_limits<double>::infinity(), value);
+  return std::abs(value) > largest ? endless : value;
+}
+
+/// The numbers of a range as the element has them, none after an error.
+std::vector<double> range_numbers(const XmlElement& element, const char* attribute) {
+  constexpr std::size_t most = 2;
+  std::istringstream words(element.text(attribute));
+  std::vector<double> found;
+  for (std::string word; words >> word;) {
+    const std::optional<double> number = bounding_number(word);
+    if (!number) break;
+    found.push_back(*number);
+  }
+  const bool open = std::ranges::any_of(found, [](double x) { return std::isinf(x); });
+  // What is wrong with them is found where numbers are read.
+  if (!open || !words.eof() || found.size() > most)
+    return element.file->numbers(element.node, attribute, most);
+  return found;
+}
+
+/// The notation of an element's own orientation, "" without one.
+std::string own_orientation(const XmlElement& element) {
+  constexpr std::array notations{"quat", "axisangle", "xyaxes", "zaxis", "euler"};
+  std::string found;
+  for (const char* notation : notations) {
+    if (!element.node.attribute(notation)) continue;
+    if (!found.empty())
+      element.file->fail(
+          element.place(notation),
+          fmt::format("<{}> has an orientation already, {}: one is allowed", element.tag(), found));
+    found = notation;
+  }
+  return found;
+}
+
 }  // namespace
 
 // ---------------------------------------------------------------------------------- attributes
+
+std::vector<XmlElement> MjcfAttributes::levels() const {
+  std::vector<XmlElement> all(defaults_.rbegin(), defaults_.rend());
+  all.push_back(own_);
+  return all;
+}
+
+std::array<double, 2> MjcfAttributes::ends(const char* attribute) const {
+  std::array<double, 2> found{0., 0.};
+  for (const XmlElement& level : levels())
+    std::ranges::copy(range_numbers(level, attribute), found.begin());
+  return found;
+}
+
+std::string MjcfAttributes::orientation() const {
+  const std::string own = own_orientation(own_);
+  if (!own.empty() && own != "quat") return own;
+  for (const XmlElement& level : defaults_) {
+    const std::string other = own_orientation(level);
+    if (!other.empty() && other != "quat") return other;
+  }
+  return has("quat") ? "quat" : "";
+}
 
 const XmlElement* MjcfAttributes::find(const char* attribute) const {
   if (own_.node.attribute(attribute)) return &own_;
@@ -40,13 +108,9 @@ std::string MjcfAttributes::word(const char* attribute) const {
 
 std::vector<double> MjcfAttributes::numbers(const char* attribute,
                                             std::vector<double> otherwise) const {
-  const auto lay = [&](const XmlElement& element) {
-    const std::vector<double> given =
-        element.file->numbers(element.node, attribute, otherwise.size());
-    std::ranges::copy(given, otherwise.begin());
-  };
-  for (auto at = defaults_.rbegin(); at != defaults_.rend(); ++at) lay(*at);
-  lay(own_);
+  for (const XmlElement& level : levels())
+    std::ranges::copy(level.file->numbers(level.node, attribute, otherwise.size()),
+                      otherwise.begin());
   return otherwise;
 }
 
@@ -87,7 +151,7 @@ bool MjcfDocument::open() {
   root_ = {xml->open({"mujoco", "mujocoinclude"}, "MJCF"), xml.get()};
   if (!root_.node) return false;
   for (const XmlElement& section : children(root_)) {
-    if (section.tag() == "default") read_defaults(section, "", true);
+    if (section.tag() == "default") read_defaults(section, "", 0);
   }
   read_compiler();
   return good();
@@ -160,34 +224,64 @@ std::vector<XmlElement> MjcfDocument::in_sections(std::string_view section) {
   return all;
 }
 
-void MjcfDocument::read_defaults(const XmlElement& section, const std::string& outer,
-                                 bool outermost) {
-  const std::string written = section.text("class");
-  if (!outermost && written.empty()) {
+MjcfDocument::DefaultClass* MjcfDocument::open_class(const XmlElement& section,
+                                                     const std::string& outer, std::size_t depth) {
+  std::string name = section.text("class");
+  if (depth == 0) {
+    // The outermost class is "main", or what the file calls it; it may stand in several sections.
+    if (!name.empty() && name != "main") classes_.try_emplace(name);
+    return &classes_.try_emplace("").first->second;
+  }
+  if (name.empty()) {
     section.file->fail(section.place(), "this <default> has no class");
-    return;
+    return nullptr;
   }
-  // The outermost class is "main", or what the file calls it.
-  std::string name = written;
-  if (outermost) {
-    if (!name.empty() && name != "main" && !classes_.contains(name)) classes_[name];
-    name = "";
-  }
-  const auto [entry, is_new] = classes_.try_emplace(name);
-  if (!is_new && !outermost) {
+  const std::size_t before = classes_.at(outer).elements.size();
+  const auto [entry, is_new] = classes_.try_emplace(name, DefaultClass{outer, before, {}});
+  if (!is_new)
     section.file->fail(section.place("class"), fmt::format("a second default class `{}`", name));
+  return is_new ? &entry->second : nullptr;
+}
+
+void MjcfDocument::read_defaults(const XmlElement& section, const std::string& outer,
+                                 std::size_t depth) {
+  constexpr std::size_t deepest = 500;
+  if (depth > deepest) {
+    section.file->fail(section.place(), fmt::format("default classes stand in each other {} deep: "
+                                                    "{} are the most",
+                                                    depth, deepest));
     return;
   }
-  if (is_new) entry->second.outer = outer;
-  DefaultClass& of = entry->second;
-  for (const XmlElement& child : children(section)) {
-    if (child.tag() == "default") {
-      read_defaults(child, name, false);
-    } else {
-      check_mjcf_attributes(child);
-      of.elements.push_back(child);
-    }
+  DefaultClass* const of = open_class(section, outer, depth);
+  if (of == nullptr) return;
+  // A class has what stands in the one around it, before and after it.
+  const std::vector<XmlElement> inside = children(section);
+  for (const XmlElement& element : inside) {
+    if (element.tag() == "default" || !check_mjcf_child(element, "default")) continue;
+    check_mjcf_attributes(element);
+    of->elements.push_back(element);
   }
+  const std::string name = depth == 0 ? "" : section.text("class");
+  for (const XmlElement& element : inside)
+    if (element.tag() == "default") read_defaults(element, name, depth + 1);
+}
+
+std::vector<XmlElement> MjcfDocument::defaults_of(const XmlElement& element,
+                                                  const std::string& name) const {
+  const auto is_of_its_kind = [&](const XmlElement& other) {
+    return other.tag() == element.tag() ||
+           (is_mjcf_actuator(other.tag()) && is_mjcf_actuator(element.tag()));
+  };
+  std::vector<XmlElement> found;
+  std::size_t count = DefaultClass::all;
+  for (auto at = classes_.find(name); at != classes_.end();) {
+    const auto& [outer, from_outer, elements] = at->second;
+    for (std::size_t i = std::min(count, elements.size()); i-- > 0;)
+      if (is_of_its_kind(elements[i])) found.push_back(elements[i]);
+    count = from_outer;
+    at = at->first.empty() ? classes_.end() : classes_.find(outer);
+  }
+  return found;
 }
 
 MjcfAttributes MjcfDocument::attributes(const XmlElement& element, const std::string& childclass) {
@@ -198,21 +292,7 @@ MjcfAttributes MjcfDocument::attributes(const XmlElement& element, const std::st
     element.file->fail(element.place("class"), fmt::format("there is no default class `{}`", name));
     name = "";
   }
-  if (name == "main") name = "";
-  std::vector<XmlElement> defaults;
-  for (std::optional<std::string> at = name; at;) {
-    const auto found = classes_.find(*at);
-    if (found != classes_.end()) {
-      for (const XmlElement& of : found->second.elements) {
-        if (of.tag() == element.tag() ||
-            (is_mjcf_actuator(of.tag()) && is_mjcf_actuator(element.tag())))
-          defaults.push_back(of);
-      }
-    }
-    if (at->empty()) break;
-    at = found == classes_.end() ? "" : found->second.outer;
-  }
-  return {element, std::move(defaults)};
+  return {element, defaults_of(element, name == "main" ? "" : name)};
 }
 
 void MjcfDocument::read_compiler() {
@@ -232,6 +312,7 @@ void MjcfDocument::read_compiler() {
       given.fail("coordinate", "global coordinates are not read, nor by MuJoCo since 2.3.4");
     compiler_.autolimits = given.boolean("autolimits", compiler_.autolimits);
     compiler_.balance_inertia = given.boolean("balanceinertia", compiler_.balance_inertia);
+    compiler_.strip_path = given.boolean("strippath", compiler_.strip_path);
     const std::string geoms = choice("inertiafromgeom", {"false", "true", "auto"});
     using From = MjcfCompiler::FromGeoms;
     if (!geoms.empty())
@@ -261,6 +342,19 @@ double MjcfDocument::angle(double written) const {
   return compiler_.degrees ? written * (std::numbers::pi / 180.) : written;
 }
 
+std::optional<std::array<double, 2>> MjcfDocument::range(const MjcfAttributes& given,
+                                                         const char* range,
+                                                         const char* limited) const {
+  const std::array<double, 2> ends = given.ends(range);
+  const std::string said = given.word(limited);
+  const bool is_given = ends[0] != 0. || ends[1] != 0.;
+  const bool holds = said == "true" || (said != "false" && compiler_.autolimits && is_given);
+  if (!holds) return std::nullopt;
+  if (ends[0] < ends[1]) return ends;
+  given.fail(range, fmt::format("{:g} is not below {:g}", ends[0], ends[1]));
+  return std::nullopt;
+}
+
 Pose MjcfDocument::pose(const MjcfAttributes& element) {
   return {element.vector("pos", {}), orientation(element)};
 }
@@ -271,12 +365,13 @@ Quaterniond MjcfDocument::orientation(const MjcfAttributes& element) {
     if (!(length > 0.)) element.fail(attribute, "a vector of length 0 has no direction");
     return length > 0. ? length : 1.;
   };
-  if (element.has("axisangle")) {
+  const std::string notation = element.orientation();
+  if (notation == "axisangle") {
     const auto given = element.numbers("axisangle", {0., 0., 0., 0.});
     const Vector3d axis{given[0], given[1], given[2]};
     return exponential((angle(given[3]) / length_of("axisangle", axis)) * axis);
   }
-  if (element.has("xyaxes")) {
+  if (notation == "xyaxes") {
     const auto given = element.numbers("xyaxes", {0., 0., 0., 0., 0., 0.});
     Vector3d x{given[0], given[1], given[2]}, y{given[3], given[4], given[5]};
     x = (1. / length_of("xyaxes", x)) * x;
@@ -285,11 +380,11 @@ Quaterniond MjcfDocument::orientation(const MjcfAttributes& element) {
     const Vector3d z = cross(x, y);
     return quaternion_from(Matrix3d{x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z});
   }
-  if (element.has("zaxis")) {
+  if (notation == "zaxis") {
     const Vector3d z = element.vector("zaxis", {});
     return from_z_to((1. / length_of("zaxis", z)) * z);
   }
-  if (element.has("euler")) {
+  if (notation == "euler") {
     const auto given = element.numbers("euler", {0., 0., 0.});
     Quaterniond q;
     // About the axes that have been turned already (x, y, z), or about fixed ones (X, Y, Z).
@@ -302,7 +397,7 @@ Quaterniond MjcfDocument::orientation(const MjcfAttributes& element) {
     }
     return q;
   }
-  if (!element.has("quat")) return {};
+  if (notation.empty()) return {};
   const auto given = element.numbers("quat", {1., 0., 0., 0.});
   const double squared =
       given[0] * given[0] + given[1] * given[1] + given[2] * given[2] + given[3] * given[3];

@@ -2,8 +2,11 @@
 // an element with what its class gives them.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -26,6 +29,8 @@ class MjcfAttributes {
 
   const XmlElement& own() const { return own_; }
   bool has(const char* attribute) const { return find(attribute) != nullptr; }
+  /// The elements that give attributes, the weakest first, its own last.
+  std::vector<XmlElement> levels() const;
   /// "" where nothing gives it.
   std::string word(const char* attribute) const;
   double number(const char* attribute, double otherwise) const;
@@ -33,6 +38,12 @@ class MjcfAttributes {
   /// give the first ones alone.
   std::vector<double> numbers(const char* attribute, std::vector<double> otherwise) const;
   Vector3d vector(const char* attribute, const Vector3d& otherwise) const;
+  /// Both ends of a range, 0 where nothing gives them; infinite where the file has an infinity or a
+  /// number beyond 1e12, which bounds nothing.
+  std::array<double, 2> ends(const char* attribute) const;
+  /// The notation of the orientation that counts, "" without one. One of the element itself goes
+  /// before those of its classes, and `quat` counts where there is no other.
+  std::string orientation() const;
   /// `true`, `false`, or neither: `otherwise`.
   bool boolean(const char* attribute, bool otherwise) const;
   /// Where it is given, otherwise the element.
@@ -43,12 +54,12 @@ class MjcfAttributes {
   const XmlElement* find(const char* attribute) const;
 
   XmlElement own_;
-  std::vector<XmlElement> defaults_;  ///< innermost class first
+  std::vector<XmlElement> defaults_;  ///< the strongest first: innermost class, latest in the file
 };
 
 /// What <compiler> says of the rest.
 struct MjcfCompiler {
-  bool degrees = true, autolimits = true, balance_inertia = false;
+  bool degrees = true, autolimits = true, balance_inertia = false, strip_path = false;
   std::string euler_sequence = "xyz";
   std::string mesh_folder;
   enum class FromGeoms { no, where_missing, always } inertia_from_geoms = FromGeoms::where_missing;
@@ -74,6 +85,10 @@ class MjcfDocument {
   /// The frame of an element in that which it stands in.
   Pose pose(const MjcfAttributes& element);
   Quaterniond orientation(const MjcfAttributes& element);
+  /// The ends of `range` where the attribute `limited`, or `autolimits`, says that they hold; nothing
+  /// otherwise and after an error.
+  std::optional<std::array<double, 2>> range(const MjcfAttributes& given, const char* range,
+                                             const char* limited) const;
   const MjcfCompiler& compiler() const { return compiler_; }
   /// An angle as the file writes it [rad].
   double angle(double written) const;
@@ -81,11 +96,18 @@ class MjcfDocument {
 
  private:
   struct DefaultClass {
+    static constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
     std::string outer;  ///< "" for the outermost
+    /// How many of the outer class's elements stood before this one, which has no others of it.
+    std::size_t from_outer = all;
     std::vector<XmlElement> elements;
   };
   XmlElement open_included(const XmlElement& include);
-  void read_defaults(const XmlElement& section, const std::string& outer, bool outermost);
+  /// `depth`: of <default> in others, 0 for the outermost.
+  void read_defaults(const XmlElement& section, const std::string& outer, std::size_t depth);
+  DefaultClass* open_class(const XmlElement& section, const std::string& outer, std::size_t depth);
+  /// Elements of a kind in the class and those that hold it, the strongest first.
+  std::vector<XmlElement> defaults_of(const XmlElement& element, const std::string& name) const;
   void read_compiler();
 
   const language::SourceFile& file_;

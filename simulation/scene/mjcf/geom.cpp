@@ -49,6 +49,15 @@ void place_between(const MjcfAttributes& given, MjcfGeom& geom) {
   }
 }
 
+/// Two geoms touch where a bit of the one's contype is in the other's conaffinity.
+void read_contact_masks(const MjcfAttributes& given, MjcfGeom& geom) {
+  constexpr long long ground = 1;
+  const auto type = static_cast<long long>(given.number("contype", 1.));
+  const auto affinity = static_cast<long long>(given.number("conaffinity", 1.));
+  geom.touches = (type & ground) != 0 || (affinity & ground) != 0;
+  geom.touches_others = !geom.touches && (type != 0 || affinity != 0);
+}
+
 double volume_of(const MjcfGeom& geom) {
   const Vector3d& size = geom.size;
   switch (geom.form) {
@@ -117,7 +126,7 @@ std::optional<MjcfGeom> read_geom(const MjcfAttributes& given, MjcfDocument& doc
                                    row->sizes == 1 ? "" : "s"));
     return std::nullopt;
   }
-  geom.touches = given.number("contype", 1.) != 0. || given.number("conaffinity", 1.) != 0.;
+  read_contact_masks(given, geom);
   return geom;
 }
 
@@ -151,8 +160,6 @@ dts::MassProperties<double> read_inertial(const MjcfAttributes& given, MjcfDocum
   } else if (given.has("diaginertia")) {
     const Vector3d I = given.vector("diaginertia", {});
     inertia = {I.x, I.y, I.z, 0., 0., 0.};
-  } else {
-    given.fail("diaginertia", "<inertial> lacks diaginertia or fullinertia");
   }
   const Pose X_BC = document.pose(given);
   return dts::placed({mass, {}, inertia}, X_BC.position, X_BC.orientation);

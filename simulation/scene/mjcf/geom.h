@@ -12,9 +12,10 @@ enum class MjcfForm { sphere, capsule, cylinder, box, ellipsoid, plane, mesh, he
 
 struct MjcfGeom {
   MjcfForm form = MjcfForm::sphere;
-  Vector3d size;  ///< MJCF's: radius, half lengths
-  Pose pose;      ///< in the frame that it stands in
-  bool touches = true;
+  Vector3d size;                ///< MJCF's: radius, half lengths
+  Pose pose;                    ///< in the frame that it stands in
+  bool touches = true;          ///< the ground, as a geom of contype and conaffinity 1
+  bool touches_others = false;  ///< not the ground, but what else has bits of its masks
 };
 
 /// Nothing after an error.
@@ -25,7 +26,7 @@ std::optional<MjcfGeom> read_geom(const MjcfAttributes& given, MjcfDocument& doc
 std::optional<dts::MassProperties<double>> mass_of_geom(const MjcfGeom& geom,
                                                         const MjcfAttributes& given);
 
-/// The frame and masses that <inertial> gives, in the body's.
+/// The mass and inertia that <inertial> gives, in the frame that it stands in.
 dts::MassProperties<double> read_inertial(const MjcfAttributes& given, MjcfDocument& document);
 
 /// `boundmass`, `boundinertia` and `balanceinertia` of the compiler.

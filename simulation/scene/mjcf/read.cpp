@@ -3,105 +3,16 @@
 // mass. With p_k the place of joint k in the body's frame B,
 //   X_PB Trans(p_1) q_1 Trans(p_2 - p_1) q_2 ... Trans(-p_n):
 // the link that joint k carries has its frame at p_k, its axes those of B.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 #include <span>
 
-#include "dts/mass_properties.h"
 #include "math/rotation.h"
-#include "simulation/scene/mjcf/geom.h"
-#include "simulation/scene/mjcf/mjcf.h"
-#include "simulation/scene/mjcf/vocabulary.h"
+#include "simulation/scene/mjcf/reader.h"
 #include "simulation/scene/urdf/inertia_repair.h"
-#include "simulation/scene/urdf/joint_rules.h"
-#include "simulation/scene/urdf/mesh.h"
 #include "simulation/scene/urdf/mesh_shape.h"
 
 namespace hookpoint::simulation {
-namespace {
-
-using language::Position;
-
-/// An element of a body, in whatever frames it stands there.
-struct Placed {
-  XmlElement element;
-  Pose X_BF;
-  std::string childclass;
-};
-
-/// Where numbers of a keyframe belong.
-struct JointAddress {
-  std::size_t robot = 0, joint = 0;
-  bool is_free = false;
-};
-
-class MjcfReader {
- public:
-  MjcfReader(const language::SourceFile& file, const MjcfChoices& choices,
-             language::FileStore& files, language::Report& report)
-      : document_(file, files, report), choices_(choices), files_(files), report_(report) {}
-
-  std::optional<MjcfScene> run();
-
- private:
-  void leave_out(const std::string& what) { ++left_out_[what]; }
-  void leave_out_unread(const XmlElement& element) {
-    const bool contact_is_read = choices_.contact == StatedContact::file && element.tag() == "geom";
-    for (const std::string& name : unread_mjcf_attributes(element))
-      if (!contact_is_read || (name != "solref" && name != "solimp" && name != "condim"))
-        leave_out(fmt::format("{} of <{}>", name, element.tag()));
-  }
-
-  void read_worldbody();
-  void read_top_body(const Placed& at);
-  std::vector<Placed> elements_of(const XmlElement& body, const Pose& X_BF,
-                                  const std::string& childclass, std::size_t depth = 0);
-  /// `X_LP`: of the carrying body's frame in its link's.
-  void read_body(const Placed& at, std::size_t robot, std::size_t parent, const Pose& X_LP,
-                 std::size_t depth);
-  UrdfJoint read_joint(const Placed& at, const std::string& body, std::size_t number);
-  void read_range(const MjcfAttributes& given, UrdfJoint& joint);
-  UrdfJoint read_free_joint(const Placed& at, const std::string& body);
-  void read_contents(const std::vector<Placed>& items, const Pose& X_LB, UrdfLink& link);
-  void read_geom_at(const Placed& at, const Pose& X_LB, UrdfLink& link,
-                    std::vector<dts::MassProperties<double>>& masses, Position& massless);
-  void add_shape(const MjcfGeom& geom, const MjcfAttributes& given, const Pose& X_LG,
-                 UrdfLink& link);
-  void add_mesh_geom(const MjcfAttributes& given, const Pose& X_LG, UrdfLink& link);
-  std::string material_of(const MjcfAttributes& given);
-  void add_stated_contact(const MjcfAttributes& given, const std::vector<double>& friction,
-                          SurfaceMaterial& material);
-  void read_friction(const XmlElement& option);
-  void require_mass();
-  /// `joint` equalities: one joint follows another, or is fixed.
-  void read_couplings();
-  void read_coupling(const XmlElement& element);
-  void read_actuators();
-  void read_actuator(const XmlElement& element);
-  void read_keyframe();
-  void take_key(const XmlElement& key);
-  void read_sections();
-  void scale_mass();
-  /// `name` if nothing else of its kind is called so, otherwise with a number.
-  std::string unique(std::string name, std::set<std::string>& taken);
-
-  MjcfDocument document_;
-  const MjcfChoices& choices_;
-  language::FileStore& files_;
-  language::Report& report_;
-  MjcfScene scene_;
-  contact::MujocoFriction friction_;
-  std::map<std::string, std::size_t> left_out_;
-  std::vector<std::string> repaired_;
-  std::set<std::string> link_names_, joint_names_;
-  std::map<std::string, JointAddress> joints_;  ///< by their names in the file
-  std::vector<JointAddress> addresses_;         ///< in the order of qpos
-  std::map<std::string, XmlElement> meshes_;
-};
 
 std::optional<MjcfScene> MjcfReader::run() {
   if (!document_.open()) return std::nullopt;
@@ -110,10 +21,12 @@ std::optional<MjcfScene> MjcfReader::run() {
   read_sections();
   read_worldbody();
   if (document_.good()) require_mass();
+  scale_mass();
+  if (document_.good()) settle_springs();
+  if (document_.good()) check_references();
   read_couplings();
   read_actuators();
   read_keyframe();
-  scale_mass();
   std::erase_if(scene_.robots, [](const UrdfRobot& robot) { return robot.joints.empty(); });
   // What moves freely is what an Include is about. (The ranges' own gives a subrange, which clang 14
   // cannot do with this library.)
@@ -138,9 +51,7 @@ void MjcfReader::read_sections() {
     const bool is_list = tag == "equality" || tag == "tendon" || tag == "contact" ||
                          tag == "sensor" || tag == "deformable" || tag == "extension";
     if (is_list) {
-      for (const XmlElement& element : document_.children(section))
-        if (tag != "equality" || element.tag() != "joint")
-          leave_out(tag == "sensor" ? "<sensor>" : fmt::format("<{}> of <{}>", element.tag(), tag));
+      read_list(section);
     } else if (is_aside) {
       if (tag == "option" && choices_.contact == StatedContact::file) read_friction(section);
       leave_out(fmt::format("<{}>", tag));
@@ -148,13 +59,52 @@ void MjcfReader::read_sections() {
       section.file->fail(section.place(), fmt::format("<mujoco> has no <{}>", tag));
     }
   }
+  read_assets();
+}
+
+void MjcfReader::read_list(const XmlElement& section) {
+  const std::string_view tag = section.tag();
+  for (const XmlElement& element : document_.children(section)) {
+    if (!check_mjcf_child(element, tag)) continue;
+    if (element.tag() == "pair") read_contact_pair(element);
+    if (!is_mjcf_coupling(element, tag))
+      leave_out(tag == "sensor" ? "<sensor>" : fmt::format("<{}> of <{}>", element.tag(), tag));
+  }
+}
+
+void MjcfReader::read_contact_pair(const XmlElement& pair) {
+  for (const char* geom : {"geom1", "geom2"}) paired_geoms_.insert(pair.text(geom));
+}
+
+void MjcfReader::read_assets() {
   for (const XmlElement& asset : document_.in_sections("asset")) {
-    if (asset.tag() != "mesh") continue;
-    check_mjcf_attributes(asset);
-    leave_out_unread(asset);
+    if (!check_mjcf_child(asset, "asset") || asset.tag() != "mesh") continue;
+    leave_out_unread(document_.attributes(asset, ""));
     std::string name = asset.text("name");
     if (name.empty()) name = std::filesystem::path(asset.text("file")).stem().string();
     meshes_.emplace(name, asset);
+  }
+}
+
+void MjcfReader::check_references() {
+  const auto check = [](const XmlElement& element, const char* attribute, const char* kind,
+                        const auto& names) {
+    const std::string name = element.text(attribute);
+    if (!name.empty() && name != "world" && !names.contains(name))
+      element.file->fail(element.place(attribute), fmt::format("there is no {} `{}`", kind, name));
+  };
+  std::vector<XmlElement> waiting;
+  for (const char* section : {"equality", "tendon", "contact", "sensor"}) {
+    for (const XmlElement& element : document_.in_sections(section))
+      if (!is_mjcf_coupling(element, section)) waiting.push_back(element);
+  }
+  while (!waiting.empty()) {
+    const XmlElement element = waiting.back();
+    waiting.pop_back();
+    check(element, "joint", "joint", joints_);
+    for (const char* attribute : {"body", "body1", "body2"})
+      check(element, attribute, "body", link_names_);
+    for (const XmlElement& child : document_.children(element)) waiting.push_back(child);
   }
 }
 
@@ -167,22 +117,38 @@ void MjcfReader::read_worldbody() {
   link.place = scene_.place;
   for (const XmlElement& section : document_.children(document_.root())) {
     if (section.tag() != "worldbody") continue;
-    for (const Placed& at : elements_of(section, {}, "")) {
+    for (const MjcfPlaced& at : elements_of(section, {}, "")) {
       if (at.element.tag() == "body") {
         read_top_body(at);
       } else {
-        leave_out(fmt::format("<{}> of the world", at.element.tag()));
+        leave_out_of_world(at.element);
       }
     }
   }
 }
 
-void MjcfReader::read_top_body(const Placed& at) {
-  const auto items = elements_of(at.element, {}, at.childclass);
-  const bool is_free = std::ranges::any_of(items, [](const Placed& item) {
-    return item.element.tag() == "freejoint" ||
-           (item.element.tag() == "joint" && item.element.text("type") == "free");
-  });
+void MjcfReader::leave_out_of_world(const XmlElement& element) {
+  const std::string_view tag = element.tag();
+  const bool stands = tag == "geom" || tag == "site" || tag == "camera" || tag == "light";
+  if (stands) {
+    check_mjcf_attributes(element);
+    leave_out(fmt::format("<{}> of the world", tag));
+  } else if (check_mjcf_child(element, "worldbody")) {
+    element.file->fail(element.place(), fmt::format("<{}> of the world is not read", tag));
+  }
+}
+
+bool MjcfReader::is_free_joint(const MjcfPlaced& item) {
+  if (item.element.tag() == "freejoint") return true;
+  return item.element.tag() == "joint" &&
+         document_.attributes(item.element, item.childclass).word("type") == "free";
+}
+
+void MjcfReader::read_top_body(const MjcfPlaced& at) {
+  const std::string own = at.element.text("childclass");
+  const auto items = elements_of(at.element, {}, own.empty() ? at.childclass : own);
+  const bool is_free =
+      std::ranges::any_of(items, [&](const MjcfPlaced& item) { return is_free_joint(item); });
   if (!is_free) return read_body(at, 0, 0, {}, 0);
   UrdfRobot& robot = scene_.robots.emplace_back();
   robot.name = at.element.text("name");
@@ -193,10 +159,10 @@ void MjcfReader::read_top_body(const Placed& at) {
   read_body(at, scene_.robots.size() - 1, 0, {}, 0);
 }
 
-std::vector<Placed> MjcfReader::elements_of(const XmlElement& body, const Pose& X_BF,
-                                            const std::string& childclass, std::size_t depth) {
+std::vector<MjcfPlaced> MjcfReader::elements_of(const XmlElement& body, const Pose& X_BF,
+                                                const std::string& childclass, std::size_t depth) {
   constexpr std::size_t deepest = 100;
-  std::vector<Placed> found;
+  std::vector<MjcfPlaced> found;
   if (depth > deepest) {
     body.file->fail(body.place(), fmt::format("frames stand in each other {} deep", depth));
     return found;
@@ -224,7 +190,7 @@ std::string MjcfReader::unique(std::string name, std::set<std::string>& taken) {
   }
 }
 
-void MjcfReader::read_body(const Placed& at, std::size_t robot, std::size_t parent,
+void MjcfReader::read_body(const MjcfPlaced& at, std::size_t robot, std::size_t parent,
                            const Pose& X_LP, std::size_t depth) {
   constexpr std::size_t deepest = 500;
   const XmlElement& element = at.element;
@@ -236,8 +202,8 @@ void MjcfReader::read_body(const Placed& at, std::size_t robot, std::size_t pare
     return;
   }
   check_mjcf_attributes(element);
-  leave_out_unread(element);
-  if (element.text("mocap") == "true") return leave_out("mocap body");
+  leave_out_unread(MjcfAttributes(element, {}));
+  if (element.text("mocap") == "true") leave_out("mocap of <body>, which stands still");
   const std::string own_class = element.text("childclass");
   const std::string childclass = own_class.empty() ? at.childclass : own_class;
   const std::string written = element.text("name");
@@ -245,13 +211,12 @@ void MjcfReader::read_body(const Placed& at, std::size_t robot, std::size_t pare
     element.file->fail(element.place("name"), fmt::format("a second body `{}`", written));
   const std::string name = unique(
       written.empty() ? fmt::format("body_{}", link_names_.size() + 1) : written, link_names_);
-  const std::vector<Placed> items = elements_of(element, {}, childclass);
+  const std::vector<MjcfPlaced> items = elements_of(element, {}, childclass);
 
   std::vector<UrdfJoint> joints;
   std::vector<Vector3d> anchors;
-  for (const Placed& item : items) {
-    if (item.element.tag() == "freejoint" ||
-        (item.element.tag() == "joint" && item.element.text("type") == "free")) {
+  for (const MjcfPlaced& item : items) {
+    if (is_free_joint(item)) {
       if (depth > 0 || !joints.empty()) {
         item.element.file->fail(item.element.place(),
                                 "a free joint is the only one of a body of the world");
@@ -293,18 +258,25 @@ void MjcfReader::read_body(const Placed& at, std::size_t robot, std::size_t pare
     if (joint.type == UrdfJointType::floating) of.start = UrdfStart{X_PB, {}, {}};
     if (joint.type != UrdfJointType::fixed)
       addresses_.push_back({robot, of.joints.size(), joint.type == UrdfJointType::floating});
-    if (last) read_contents(items, X_LB, link);
     parent = of.links.size();
     of.links.push_back(std::move(link));
     if (joint.type != UrdfJointType::fixed) joints_[joint.name] = addresses_.back();
     of.joints.push_back(std::move(joint));
+    if (last) read_contents(items, X_LB, is_moved(of, parent), of.links.back());
   }
-  for (const Placed& item : items) {
+  for (const MjcfPlaced& item : items) {
     if (item.element.tag() == "body") read_body(item, robot, parent, X_LB, depth + 1);
   }
 }
 
-UrdfJoint MjcfReader::read_free_joint(const Placed& at, const std::string& body) {
+bool MjcfReader::is_moved(const UrdfRobot& robot, std::size_t index) {
+  // Each link but the first has the joint that was read with it.
+  for (; index > 0; index = robot.joints[index - 1].parent)
+    if (robot.joints[index - 1].type != UrdfJointType::fixed) return true;
+  return false;
+}
+
+UrdfJoint MjcfReader::read_free_joint(const MjcfPlaced& at, const std::string& body) {
   const MjcfAttributes given = document_.attributes(at.element, at.childclass);
   for (const char* aside : {"armature", "damping", "frictionloss", "stiffness"}) {
     if (given.number(aside, 0.) != 0.) leave_out(fmt::format("{} of a free joint", aside));
@@ -317,9 +289,10 @@ UrdfJoint MjcfReader::read_free_joint(const Placed& at, const std::string& body)
   return joint;
 }
 
-UrdfJoint MjcfReader::read_joint(const Placed& at, const std::string& body, std::size_t number) {
+UrdfJoint MjcfReader::read_joint(const MjcfPlaced& at, const std::string& body,
+                                 std::size_t number) {
   const MjcfAttributes given = document_.attributes(at.element, at.childclass);
-  leave_out_unread(at.element);
+  leave_out_unread(given);
   UrdfJoint joint;
   joint.place = joint.type_place = at.element.place();
   const std::string written = at.element.text("name");
@@ -373,38 +346,43 @@ UrdfJoint MjcfReader::read_joint(const Placed& at, const std::string& body, std:
   joint.rotor_place = given.place("armature");
   joint.limit_place = given.place("range");
   read_range(given, joint);
+  const auto spring = given.numbers("springdamper", {0., 0.});
+  if (spring[0] > 0. && spring[1] > 0.) spring_dampers_[joint.name] = {spring[0], spring[1]};
   return joint;
 }
 
 void MjcfReader::read_range(const MjcfAttributes& given, UrdfJoint& joint) {
-  const auto limits = [&](const char* range, const char* limited) {
-    const auto ends = given.numbers(range, {0., 0.});
-    const std::string said = given.word(limited);
-    const bool holds = said == "true" || (said != "false" && document_.compiler().autolimits &&
-                                          (ends[0] != 0. || ends[1] != 0.));
-    if (!holds) return std::optional<std::vector<double>>{};
-    if (ends[0] < ends[1]) return std::optional(ends);
-    given.fail(range, fmt::format("{:g} is not below {:g}", ends[0], ends[1]));
-    return std::optional<std::vector<double>>{};
-  };
-  if (const auto ends = limits("range", "limited")) {
+  if (const auto ends = document_.range(given, "range", "limited")) {
     const bool slides = joint.type == UrdfJointType::prismatic;
-    if (!slides) joint.type = UrdfJointType::revolute;
-    joint.lower_limit = slides ? (*ends)[0] : document_.angle((*ends)[0]);
-    joint.upper_limit = slides ? (*ends)[1] : document_.angle((*ends)[1]);
+    const auto limit = [&](double end) {
+      const double value = slides ? end : document_.angle(end);
+      return std::isfinite(value) ? std::optional(value) : std::nullopt;
+    };
+    joint.lower_limit = limit((*ends)[0]);
+    joint.upper_limit = limit((*ends)[1]);
+    if (!slides && (joint.lower_limit || joint.upper_limit)) joint.type = UrdfJointType::revolute;
   }
-  if (const auto ends = limits("actuatorfrcrange", "actuatorfrclimited")) {
-    joint.effort_limit = std::max(std::abs((*ends)[0]), std::abs((*ends)[1]));
+  if (const auto ends = document_.range(given, "actuatorfrcrange", "actuatorfrclimited")) {
+    const double most = greater_end(*ends, "actuatorfrcrange of <joint>");
+    if (!std::isfinite(most)) return;
+    joint.effort_limit = most;
     joint.effort_place = given.place("actuatorfrcrange");
   }
 }
 
-void MjcfReader::read_contents(const std::vector<Placed>& items, const Pose& X_LB, UrdfLink& link) {
+double MjcfReader::greater_end(const std::array<double, 2>& ends, const std::string& what) {
+  const double low = std::abs(ends[0]), high = std::abs(ends[1]);
+  if (low != high) leave_out(fmt::format("smaller end of {}", what));
+  return std::max(low, high);
+}
+
+void MjcfReader::read_contents(const std::vector<MjcfPlaced>& items, const Pose& X_LB,
+                               bool is_moved, UrdfLink& link) {
   std::vector<dts::MassProperties<double>> masses;
   std::optional<dts::MassProperties<double>> given_mass;
-  Position unknown;  // of a geom whose mass is not known
+  language::Position unknown;  // of a geom whose mass is not known
   link.inertial_place = link.place;
-  for (const Placed& item : items) {
+  for (const MjcfPlaced& item : items) {
     const std::string_view tag = item.element.tag();
     if (tag == "geom") {
       read_geom_at(item, X_LB, link, masses, unknown);
@@ -415,18 +393,26 @@ void MjcfReader::read_contents(const std::vector<Placed>& items, const Pose& X_L
       }
       check_mjcf_attributes(item.element);
       link.inertial_place = item.element.place();
-      given_mass = read_inertial(MjcfAttributes(item.element, {}), document_);
+      given_mass = dts::placed(read_inertial(MjcfAttributes(item.element, {}), document_),
+                               item.X_BF.position, item.X_BF.orientation);
     } else if (tag == "site" || tag == "camera" || tag == "light") {
       leave_out(fmt::format("<{}>", tag));
-    } else if (tag != "joint" && tag != "freejoint" && tag != "body") {
+    } else if (tag != "joint" && tag != "freejoint" && tag != "body" &&
+               check_mjcf_child(item.element, "body")) {
       item.element.file->fail(item.element.place(), fmt::format("<{}> of a body is not read", tag));
     }
   }
   using From = MjcfCompiler::FromGeoms;
   const MjcfCompiler& compiler = document_.compiler();
-  const bool from_geoms = compiler.inertia_from_geoms == From::always ||
-                          (compiler.inertia_from_geoms == From::where_missing && !given_mass);
-  if (from_geoms && unknown.file != nullptr)
+  // Geoms without mass leave the <inertial> as it is.
+  const bool geoms_weigh =
+      unknown.file != nullptr ||
+      std::ranges::any_of(masses, [](const auto& mass) { return mass.mass > 0.; });
+  const bool from_geoms = compiler.inertia_from_geoms == From::always
+                              ? geoms_weigh || !given_mass
+                              : compiler.inertia_from_geoms == From::where_missing && !given_mass;
+  const bool matters = is_moved || compiler.total_mass > 0.;
+  if (from_geoms && matters && unknown.file != nullptr)
     report_.error(unknown, fmt::format("body `{}` has the mass of its geoms, and that of a mesh is "
                                        "not computed: give the body an <inertial>",
                                        link.name));
@@ -441,12 +427,19 @@ void MjcfReader::read_contents(const std::vector<Placed>& items, const Pose& X_L
     report_.error(link.inertial_place, problem);
 }
 
-void MjcfReader::read_geom_at(const Placed& at, const Pose& X_LB, UrdfLink& link,
-                              std::vector<dts::MassProperties<double>>& masses, Position& unknown) {
+void MjcfReader::read_geom_at(const MjcfPlaced& at, const Pose& X_LB, UrdfLink& link,
+                              std::vector<dts::MassProperties<double>>& masses,
+                              language::Position& unknown) {
   const MjcfAttributes given = document_.attributes(at.element, at.childclass);
-  leave_out_unread(at.element);
+  leave_out_unread(given);
   const std::optional<MjcfGeom> geom = read_geom(given, document_);
   if (!geom) return;
+  const std::string name = given.own().text("name");
+  if (!name.empty() && !geom->touches && paired_geoms_.contains(name))
+    leave_out(
+        fmt::format("contact of geom `{}` by a <pair> (contype = \"1\" lets it touch)", name));
+  if (geom->touches_others)
+    leave_out("contact of a geom whose contype and conaffinity lack bit 1, that of the ground");
   const double group = given.number("group", 0.);
   const MjcfCompiler& compiler = document_.compiler();
   if (group >= compiler.first_group && group <= compiler.last_group) {
@@ -496,26 +489,50 @@ void MjcfReader::add_mesh_geom(const MjcfAttributes& given, const Pose& X_LG, Ur
     given.fail("mesh", fmt::format("there is no mesh `{}`", name));
     return;
   }
-  const XmlElement& asset = found->second;
-  const std::filesystem::path file =
-      std::filesystem::path(document_.compiler().mesh_folder) / asset.text("file");
-  const std::filesystem::path path = files_.find(file, document_.main_file().path);
-  const Position at = asset.place("file");
-  if (path.empty()) {
-    asset.file->fail(
-        at, fmt::format("there is no mesh `{}` (meshes = skip does without)", file.string()));
-    return;
+  const MeshPoints* const mesh = mesh_of(found->second, name);
+  if (mesh == nullptr) return;
+  const Vector3d scale = document_.attributes(found->second, "").vector("scale", {1., 1., 1.});
+  add_mesh(mesh->vertices, scale, choices_.meshes, X_LG, given.own().place(), material_of(given),
+           link, left_out_);
+}
+
+const MeshPoints* MjcfReader::mesh_of(const XmlElement& asset, const std::string& name) {
+  const MjcfAttributes given = document_.attributes(asset, "");
+  const auto fail = [&](const char* attribute, const std::string& message) {
+    given.fail(attribute, message);
+    return nullptr;
+  };
+  if (given.word("file").empty()) {
+    const MeshPoints& points = files_.keep<MeshPoints>(
+        fmt::format("vertices {} {}", asset.place().file->path, asset.place().offset),
+        [&] { return vertices_of(asset); });
+    if (points.vertices.empty() && asset.file->good())
+      return fail("file", fmt::format("mesh `{}` has neither file nor vertex", name));
+    return &points;
   }
+  std::filesystem::path file = given.word("file");
+  if (document_.compiler().strip_path) file = file.filename();
+  file = std::filesystem::path(document_.compiler().mesh_folder) / file;
+  const std::filesystem::path path = files_.find(file, document_.main_file().path);
+  if (path.empty())
+    return fail("file",
+                fmt::format("there is no mesh `{}` (meshes = skip does without)", file.string()));
   const MeshPoints& mesh = files_.keep<MeshPoints>("mesh " + path.lexically_normal().string(),
                                                    [&] { return read_mesh(path); });
-  if (!mesh.problem.empty()) {
-    asset.file->fail(at,
-                     fmt::format("the mesh {} cannot be read: {}", path.string(), mesh.problem));
-    return;
-  }
-  const Vector3d scale = document_.attributes(asset, "").vector("scale", {1., 1., 1.});
-  add_mesh(mesh.vertices, scale, choices_.meshes, X_LG, given.own().place(), material_of(given),
-           link, left_out_);
+  if (!mesh.problem.empty())
+    return fail("file", fmt::format("the mesh {} cannot be read: {}", path.string(), mesh.problem));
+  return &mesh;
+}
+
+MeshPoints MjcfReader::vertices_of(const XmlElement& asset) {
+  constexpr std::size_t most = 3'000'000;
+  const std::vector<double> numbers = asset.file->numbers(asset.node, "vertex", most);
+  if (numbers.size() % 3 != 0)
+    asset.file->fail(asset.place("vertex"), "vertex takes three numbers each: \"x y z x y z ...\"");
+  MeshPoints points;
+  for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+    points.vertices.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+  return points;
 }
 
 std::string MjcfReader::material_of(const MjcfAttributes& given) {
@@ -535,7 +552,8 @@ std::string MjcfReader::material_of(const MjcfAttributes& given) {
 }
 
 /// solref and solimp, at MuJoCo's defaults where the file has none, with the cone and impratio of its
-/// <option>; how many friction rows a contact has (condim) says which coefficients count.
+/// <option>. The number of rows of a contact (condim) is the larger of two geoms' unless one has
+/// priority: the ground has 3 without, so that a geom's 1 counts as 3.
 void MjcfReader::add_stated_contact(const MjcfAttributes& given,
                                     const std::vector<double>& friction,
                                     SurfaceMaterial& material) {
@@ -544,7 +562,7 @@ void MjcfReader::add_stated_contact(const MjcfAttributes& given,
     given.fail("condim", "condim is 1, 3, 4 or 6");
     return;
   }
-  if (rows == 1.) material.friction = 0.;
+  if (rows == 1. && given.number("priority", 0.) > 0.) material.friction = 0.;
   if (rows >= 4.) material.spinning = friction[1];
   if (rows >= 6.) material.rolling = friction[2];
   contact::MujocoContact stated{{}, friction_};
@@ -582,177 +600,6 @@ void MjcfReader::require_mass() {
   }
 }
 
-void MjcfReader::read_couplings() {
-  for (const XmlElement& element : document_.in_sections("equality"))
-    if (element.tag() == "joint") read_coupling(element);
-}
-
-// q1 - ref1 = c0 + c1 (q2 - ref2) + ...; joints stand at their references so far.
-void MjcfReader::read_coupling(const XmlElement& element) {
-  const MjcfAttributes given(element, {});
-  if (choices_.mimic == UrdfMimic::ignore) return leave_out("<joint> of <equality>");
-  if (given.word("active") == "false") return leave_out("equality that is not active");
-  const std::vector<double> c = given.numbers("polycoef", {0., 1., 0., 0., 0.});
-  if (c[2] != 0. || c[3] != 0. || c[4] != 0.)
-    return leave_out("<joint> of <equality> that is not linear");
-  const auto find = [&](const char* attribute) -> UrdfJoint* {
-    const auto found = joints_.find(given.word(attribute));
-    if (found != joints_.end() && !found->second.is_free)
-      return &scene_.robots[found->second.robot].joints[found->second.joint];
-    given.fail(attribute, fmt::format("there is no joint `{}` to couple", given.word(attribute)));
-    return nullptr;
-  };
-  UrdfJoint* const follower = find("joint1");
-  if (follower == nullptr) return;
-  const double at = follower->angle.value_or(0.) + c[0];
-  if (choices_.mimic == UrdfMimic::fixed || !given.has("joint2")) return fix_joint(at, *follower);
-  const UrdfJoint* const leader = find("joint2");
-  if (leader == nullptr) return;
-  follower->follows = {leader->name, c[1], at - c[1] * leader->angle.value_or(0.), element.place()};
-}
-
-void MjcfReader::read_actuators() {
-  for (const XmlElement& element : document_.in_sections("actuator")) {
-    const std::string_view tag = element.tag();
-    if (tag == "motor" || tag == "position" || tag == "velocity" || tag == "general") {
-      read_actuator(element);
-    } else {
-      leave_out(fmt::format("<{}> of <actuator>", tag));
-    }
-  }
-}
-
-void MjcfReader::read_actuator(const XmlElement& element) {
-  const MjcfAttributes given = document_.attributes(element, "");
-  leave_out_unread(element);
-  const std::string name = given.word("joint");
-  if (name.empty()) return leave_out(fmt::format("<{}> of no joint", element.tag()));
-  const auto found = joints_.find(name);
-  if (found == joints_.end()) {
-    given.fail("joint", fmt::format("there is no joint `{}`", name));
-    return;
-  }
-  if (found->second.is_free) return leave_out(fmt::format("<{}> of a free joint", element.tag()));
-  UrdfJoint& joint = scene_.robots[found->second.robot].joints[found->second.joint];
-  const double gear = given.numbers("gear", {1., 0., 0., 0., 0., 0.})[0];
-  // torque = gear (gain ctrl + bias_0 + bias_1 gear q + bias_2 gear dq/dt)
-  double gain = given.numbers("gainprm", std::vector<double>(10, 0.))[0];
-  if (!given.has("gainprm")) gain = 1.;
-  std::vector<double> bias = given.numbers("biasprm", std::vector<double>(10, 0.));
-  const bool affine = given.word("biastype") == "affine";
-  if (element.tag() == "general" &&
-      ((!given.word("biastype").empty() && !affine && given.word("biastype") != "none") ||
-       (!given.word("gaintype").empty() && given.word("gaintype") != "fixed")))
-    return leave_out("<general> whose gain or bias is of another type");
-  if (!affine) std::ranges::fill(bias, 0.);
-  if (element.tag() == "position") {
-    gain = given.number("kp", gain);
-    bias = {0., -gain, -given.number("kv", -bias[2])};
-  } else if (element.tag() == "velocity") {
-    gain = given.number("kv", gain);
-    bias = {0., 0., -gain};
-  } else if (element.tag() == "motor") {
-    gain = 1.;
-    bias = {0., 0., 0.};
-  }
-  const auto limit = [&](const char* range, const char* limited, double factor) {
-    const auto ends = given.numbers(range, {0., 0.});
-    const std::string said = given.word(limited);
-    const double most = factor * std::max(std::abs(ends[0]), std::abs(ends[1]));
-    if (said == "false" || !(most > 0.)) return;
-    if (said != "true" && !document_.compiler().autolimits) return;
-    if (joint.effort_limit && *joint.effort_limit <= most) return;
-    joint.effort_limit = most;
-    joint.effort_place = given.place(range);
-  };
-  limit("forcerange", "forcelimited", std::abs(gear));
-  const bool is_motor = bias[0] == 0. && bias[1] == 0. && bias[2] == 0.;
-  if (is_motor) return limit("ctrlrange", "ctrllimited", std::abs(gear * gain));
-  UrdfServo servo;
-  servo.place = element.place();
-  servo.damping = -gear * gear * bias[2];
-  servo.gain = gear * gear * gain;
-  servo.of_rate = bias[1] == 0.;
-  if (gear == 0. || bias[0] != 0. || (servo.of_rate ? bias[2] != -gain : bias[1] != -gain))
-    return leave_out(fmt::format("<{}> that is no servo", element.tag()));
-  if (servo.of_rate || bias[2] == 0.) servo.damping = 0.;
-  if (joint.servo) return leave_out("second servo of a joint");
-  joint.servo = servo;
-}
-
-void MjcfReader::read_keyframe() {
-  std::string known;
-  for (const XmlElement& key : document_.in_sections("keyframe")) {
-    check_mjcf_attributes(key);
-    const std::string name = key.text("name");
-    if (!choices_.keyframe.empty() && name == choices_.keyframe) return take_key(key);
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", name);
-  }
-  if (choices_.keyframe.empty()) {
-    if (!known.empty()) left_out_[fmt::format("keyframe ({}: the argument `keyframe`)", known)] = 1;
-    return;
-  }
-  report_.error(choices_.keyframe_place,
-                fmt::format("the file has no <key> `{}`; it has {}", choices_.keyframe,
-                            known.empty() ? "none" : known));
-}
-
-void MjcfReader::take_key(const XmlElement& key) {
-  std::size_t positions = 0, rates = 0;
-  for (const JointAddress& at : addresses_) {
-    positions += at.is_free ? 7 : 1;
-    rates += at.is_free ? 6 : 1;
-  }
-  const auto numbers = [&](const char* attribute, std::size_t wanted) {
-    const std::vector<double> given = key.file->numbers(key.node, attribute, wanted);
-    if (!given.empty() && given.size() != wanted)
-      key.file->fail(key.place(attribute), fmt::format("{} has {} numbers, and the file's joints "
-                                                       "{}",
-                                                       attribute, given.size(), wanted));
-    return given.size() == wanted ? given : std::vector<double>{};
-  };
-  const std::vector<double> q = numbers("qpos", positions), v = numbers("qvel", rates);
-  std::size_t next = 0, next_rate = 0;
-  for (const JointAddress& at : addresses_) {
-    UrdfRobot& robot = scene_.robots[at.robot];
-    if (at.is_free) {
-      UrdfStart& start = *robot.start;
-      if (!q.empty()) {
-        const Quaterniond turn{q[next + 3], q[next + 4], q[next + 5], q[next + 6]};
-        if (turn == Quaterniond{0., 0., 0., 0.}) {
-          key.file->fail(key.place("qpos"), "a quaternion of length 0 is no orientation");
-          return;
-        }
-        start.pose = {{q[next], q[next + 1], q[next + 2]}, normalized(turn)};
-      }
-      if (!v.empty()) {
-        start.velocity = {v[next_rate], v[next_rate + 1], v[next_rate + 2]};
-        // MJCF has it in the body's axes.
-        start.angular_velocity = rotate(
-            start.pose.orientation, Vector3d{v[next_rate + 3], v[next_rate + 4], v[next_rate + 5]});
-      }
-    } else {
-      UrdfJoint& joint = robot.joints[at.joint];
-      if (!q.empty()) joint.angle = q[next];
-      if (!v.empty()) joint.rate = v[next_rate];
-    }
-    next += at.is_free ? 7 : 1;
-    next_rate += at.is_free ? 6 : 1;
-  }
-  const auto actuators = document_.in_sections("actuator");
-  const std::vector<double> ctrl = numbers("ctrl", actuators.size());
-  for (std::size_t i = 0; i < ctrl.size(); ++i) {
-    const MjcfAttributes given = document_.attributes(actuators[i], "");
-    const auto found = joints_.find(given.word("joint"));
-    if (found == joints_.end() || found->second.is_free) continue;
-    UrdfJoint& joint = scene_.robots[found->second.robot].joints[found->second.joint];
-    const double gear = given.numbers("gear", {1., 0., 0., 0., 0., 0.})[0];
-    const bool is_its_own = joint.servo && joint.servo->place.file == actuators[i].place().file &&
-                            joint.servo->place.offset == actuators[i].place().offset;
-    if (is_its_own) joint.servo->goal = ctrl[i] / gear;
-  }
-}
-
 /// `settotalmass`: of all bodies together.
 void MjcfReader::scale_mass() {
   const double wanted = document_.compiler().total_mass;
@@ -768,8 +615,6 @@ void MjcfReader::scale_mass() {
     }
   }
 }
-
-}  // namespace
 
 std::optional<MjcfScene> read_mjcf(const language::SourceFile& file, const MjcfChoices& choices,
                                    language::FileStore& files, language::Report& report) {
