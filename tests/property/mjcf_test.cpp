@@ -20,6 +20,7 @@
 #include "simulation/experiment/robot_tree.h"
 #include "tests/support/command.h"
 #include "tests/support/folders.h"
+#include "tests/support/load_mjcf.h"
 #include "tests/support/load_text.h"
 #include "tests/support/mjcf_robot.h"
 #include "tests/support/text.h"
@@ -30,18 +31,6 @@
 namespace hookpoint::tests {
 namespace {
 
-/// The World around an Include of robot.xml, which is `text`.
-Loaded load_mjcf(const std::string& text, const std::string& arguments = "") {
-  const testing::Workplace place;
-  place.file("robot.xml", text);
-  return load_file(
-      place.file("scene.hook", "World w { Include \"robot.xml\" (name = r" + arguments + "); }"));
-}
-
-std::string mujoco(const std::string& inside) { return "<mujoco>\n" + inside + "</mujoco>"; }
-std::string world(const std::string& inside, const std::string& after = "") {
-  return mujoco("<worldbody>\n" + inside + "</worldbody>\n" + after);
-}
 const std::string ball = "<geom size=\"0.1\"/>";
 
 std::filesystem::path makers_folder() {
@@ -384,13 +373,61 @@ TEST(Mjcf, ContactOfTheFileIsKeptInItsWordsAndAsASpring) {
 }
 
 TEST(Mjcf, WithoutNumbersOfItsOwnTheContactHasMujocosDefaults) {
-  const Loaded loaded = load_resting_ball("condim=\"1\"");
+  const Loaded loaded = load_resting_ball("");
   ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
   const simulation::MaterialSpec& material = loaded.experiment->materials.at(0);
   ASSERT_TRUE(material.mujoco);
   EXPECT_EQ(material.mujoco->row, contact::MujocoRow{});
   EXPECT_EQ(material.mujoco->friction, contact::MujocoFriction{});
-  EXPECT_EQ(material.constants.kinetic_friction, 0.);
+}
+
+#ifdef HOOKPOINT_HAS_MUJOCO
+// The ground is a geom of condim 3. Of two geoms the larger condim counts, or that of the one with priority.
+TEST(Mjcf, AGeomOfOneRowHasTheFrictionOfThreeOnTheGround) {
+  for (const auto& [priority, dimension] : {std::pair{0, 3}, {1, 1}}) {
+    const std::string geom = fmt::format("friction=\"0.4\" condim=\"1\" priority=\"{}\"", priority);
+    const Loaded loaded = load_resting_ball(geom);
+    ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+    const Compiled truth(
+        world("<geom type=\"plane\" size=\"1 1 1\" friction=\"0.1\"/><body pos=\"0 0 "
+              "0.09\"><freejoint/><geom size=\"0.1\" " +
+              geom + "/></body>"));
+    truth.model->opt.disableflags = 0;
+    mj_forward(truth.model, truth.data);
+    ASSERT_EQ(truth.data->ncon, 1);
+    const mjContact& contact = truth.data->contact[0];
+    EXPECT_EQ(contact.dim, dimension);
+    EXPECT_EQ(loaded.experiment->materials.at(0).constants.kinetic_friction,
+              contact.dim == 1 ? 0. : contact.friction[0]);
+  }
+}
+
+TEST(Mjcf, MasksOfContactSayWhatTouchesTheGround) {
+  for (const auto& [type, affinity] : {std::pair{0, 0}, {0, 1}, {1, 0}, {2, 2}, {2, 4}, {3, 0}}) {
+    const std::string body = fmt::format(
+        "<body pos=\"0 0 0.09\"><freejoint/><geom size=\"0.1\" contype=\"{}\" "
+        "conaffinity=\"{}\"/></body>",
+        type, affinity);
+    const Compiled truth(world("<geom type=\"plane\" size=\"1 1 1\"/>" + body));
+    truth.model->opt.disableflags = 0;
+    mj_forward(truth.model, truth.data);
+    const Loaded loaded = load_mjcf(world(body));
+    ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+    EXPECT_EQ(loaded.experiment->robots[0].base.shapes.size(), std::size_t(truth.data->ncon))
+        << body;
+    const bool noted = loaded.diagnostics.find("lack bit 1") != std::string::npos;
+    EXPECT_EQ(noted, truth.data->ncon == 0 && type != 0) << loaded.diagnostics;
+  }
+}
+#endif
+
+TEST(Mjcf, AGeomThatTouchesThroughAPairAloneIsNamed) {
+  const Loaded loaded =
+      load_mjcf(world("<geom name=\"floor\" type=\"plane\" size=\"1 1 1\"/><body><freejoint/><geom "
+                      "name=\"foot\" size=\"0.1\" contype=\"0\" conaffinity=\"0\"/></body>",
+                      "<contact><pair geom1=\"foot\" geom2=\"floor\"/></contact>"));
+  EXPECT_NE(loaded.diagnostics.find("contact of geom `foot` by a <pair>"), std::string::npos)
+      << loaded.diagnostics;
 }
 
 TEST(Mjcf, OtherwiseFrictionAloneOrNothingCounts) {
@@ -439,6 +476,200 @@ TEST(Mjcf, StatedConstantsHoldAndALoadIsNeeded) {
       << lonely.diagnostics;
 }
 
+/// The acceleration of the only joint of `text`, at 0 under gravity [rad/s^2].
+double acceleration_of(const std::string& text) {
+  const Loaded loaded = load_mjcf(text);
+  EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+  if (!loaded.experiment) return 0.;
+  const dts::Model<double> model(simulation::describe_robot(loaded.experiment->robots.at(0)));
+  dts::Workspace<double> workspace(model);
+  const dts::State<double> state = dts::zero_state(model);
+  dts::forward_dynamics(model, state, {0., 0., -9.81}, std::vector<double>{0.}, workspace);
+  std::vector<double> found(dts::velocity_count(model));
+  dts::get_acceleration(model, workspace, std::span<double>(found));
+  return found.back();
+}
+
+TEST(Mjcf, AnInertialInAFrameIsMovedByIt) {
+  // The centre is (0.1 + 0.2 cos 30, 0, -0.2 sin 30) deg; the joint is 0.3 above: m g x / (I + m r^2).
+  const double x = 0.1 + 0.2 * std::sqrt(0.75), z = -0.1 - 0.3;
+  const double expected = 2. * 9.81 * x / (0.02 + 2. * (x * x + z * z));
+  EXPECT_NEAR(expected, 10.95540676, 1e-8);  // MuJoCo 3.14
+  EXPECT_NEAR(
+      acceleration_of(world("<body><joint axis=\"0 1 0\" pos=\"0 0 0.3\"/><frame pos=\"0.1 0 0\" "
+                            "euler=\"0 30 0\"><inertial pos=\"0.2 0 0\" mass=\"2\" "
+                            "diaginertia=\"0.01 0.02 0.025\"/></frame></body>")),
+      expected, 1e-12);
+}
+
+TEST(Mjcf, AnInertialStaysWhereNoGeomHasAMass) {
+  // m g x / (I + m x^2) of the <inertial>
+  const std::string inertial = "<inertial pos=\"0.1 0 0\" mass=\"2\" diaginertia=\"0.1 0.1 0.1\"/>";
+  for (const char* geom :
+       {"", "<geom size=\"0.1\" group=\"3\"/>", "<geom size=\"0.1\" mass=\"0\"/>"})
+    EXPECT_NEAR(
+        acceleration_of(
+            mujoco("<compiler inertiafromgeom=\"true\" inertiagrouprange=\"0 1\"/><worldbody><body>"
+                   "<joint axis=\"0 1 0\"/>" +
+                   inertial + geom + "</body></worldbody>")),
+        16.35, 1e-12)
+        << geom;
+}
+
+TEST(Mjcf, WhatStandsOnTheWorldNeedsNoMass) {
+  const std::string text = world(
+      "<body><geom type=\"mesh\" mesh=\"m\"/><body><joint axis=\"0 1 0\"/><geom size=\"0.1\" "
+      "mass=\"1\" pos=\"0.2 0 0\"/></body></body>",
+      "<asset><mesh name=\"m\" file=\"m.stl\"/></asset>");
+  // m g x / (2/5 m r^2 + m x^2)
+  EXPECT_NEAR(acceleration_of(text), 9.81 * 0.2 / (0.004 + 0.04), 1e-12);
+  const Loaded scaled = load_mjcf("<mujoco><compiler settotalmass=\"3\"/>" + text.substr(8));
+  EXPECT_NE(scaled.diagnostics.find("that of a mesh is not computed"), std::string::npos)
+      << scaled.diagnostics;
+}
+
+/// The mass of the first robot [kg].
+double mass_of(const std::string& text) {
+  const Loaded loaded = load_mjcf(text);
+  EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+  if (!loaded.experiment) return 0.;
+  double mass = loaded.experiment->robots.at(0).base.mass.mass;
+  simulation::for_each_link(loaded.experiment->robots[0], [&](const simulation::TreeLink& at) {
+    mass += at.link.body.mass.mass;
+  });
+  return mass;
+}
+
+TEST(Mjcf, ALaterDefaultHoldsButNotInClassesBeforeIt) {
+  const std::string body = "<worldbody><body><freejoint/><geom size=\"0.1\"/></body></worldbody>";
+  const double ball_volume = 4. / 3. * M_PI * 1e-3;
+  EXPECT_NEAR(
+      mass_of(mujoco("<default><geom density=\"500\"/></default><default class=\"main\"><geom "
+                     "density=\"2000\"/></default>" +
+                     body)),
+      2000. * ball_volume, 1e-12);
+  const std::string of_class =
+      "<worldbody><body childclass=\"k\"><freejoint/><geom/></body></worldbody>";
+  const std::string k = "<default class=\"k\"><geom size=\"0.1\"/></default>";
+  const std::string dense = "<geom density=\"3000\"/>";
+  EXPECT_NEAR(
+      mass_of(mujoco("<default>" + k + "</default><default>" + dense + "</default>" + of_class)),
+      1000. * ball_volume, 1e-12);
+  EXPECT_NEAR(mass_of(mujoco("<default>" + k + dense + "</default>" + of_class)),
+              3000. * ball_volume, 1e-12);
+}
+
+// Accelerations [rad/s^2] in MuJoCo 3.14. MuJoCo 2.2.2 has euler before xyaxes, whoever states it.
+TEST(Mjcf, AnOrientationOfItsOwnGoesBeforeThatOfAClass) {
+  const std::string defaults =
+      "<default><default class=\"k\"><geom type=\"box\" size=\"0.3 0.1 0.05\" zaxis=\"1 0 0\" "
+      "mass=\"3\"/><default class=\"l\"><geom euler=\"0 0 30\"/></default><default "
+      "class=\"m\"><geom quat=\"1 0 0 1\"/></default></default></default>";
+  const std::pair<const char*, double> rows[] = {
+      {"class=\"k\" euler=\"0 0 30\"", -17.89057751},
+      {"class=\"k\" quat=\"1 0 1 0\"", -17.46587537},
+      {"class=\"l\"", -17.89057751},
+      {"class=\"m\"", -17.46587537},
+      {"class=\"l\" xyaxes=\"0 1 0 0 0 1\"", -19.29836066},
+      {"class=\"m\" axisangle=\"1 1 0 20\"", -17.45829263},
+      {"class=\"l\" zaxis=\"1 1 0\"", -17.80937973},
+  };
+  for (const auto& [geom, expected] : rows)
+    EXPECT_NEAR(acceleration_of(mujoco(
+                    defaults + "<worldbody><body><joint axis=\"0 1 0\" pos=\"0.5 0 0\"/><geom " +
+                    geom + "/></body></worldbody>")),
+                expected, 1e-8)
+        << geom;
+}
+
+TEST(Mjcf, ARangeWithoutEndsIsNone) {
+  const auto link = [&](const std::string& range) {
+    const Loaded loaded = load_mjcf(
+        world("<body><joint type=\"slide\" range=\"" + range + "\"/>" + ball + "</body>"));
+    EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+    return loaded.experiment ? loaded.experiment->robots.at(0).chains.at(0).links.at(0)
+                             : simulation::LinkSpec{};
+  };
+  for (const char* open : {"-inf inf", "-1e16 +1e16", "-INF inf"}) {
+    EXPECT_FALSE(link(open).lower_limit) << open;
+    EXPECT_FALSE(link(open).upper_limit) << open;
+  }
+  EXPECT_EQ(link("-1 inf").lower_limit, -1.);
+  EXPECT_FALSE(link("-1 inf").upper_limit);
+}
+
+TEST(Mjcf, WhatIsUnreadIsNotedOfClassesToo) {
+  const Loaded loaded = load_mjcf(mujoco(
+      "<default><geom margin=\"0.01\" gap=\"0.005\" priority=\"1\" solmix=\"3\" condim=\"1\" "
+      "shellinertia=\"true\"/><joint margin=\"0.1\"/><general dyntype=\"filter\" "
+      "dynprm=\"0.1\"/><mesh inertia=\"shell\"/></default><asset><mesh "
+      "file=\"m.stl\"/></asset><worldbody><body><joint name=\"q\"/>" +
+      ball + "</body></worldbody><actuator><general joint=\"q\"/></actuator>"));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  for (const char* unread :
+       {"margin of <geom> (1)", "gap of <geom>", "priority of <geom>", "solmix of <geom>",
+        "condim of <geom>", "shellinertia of <geom>", "margin of <joint>", "dyntype of <general>",
+        "dynprm of <general>", "inertia of <mesh>"})
+    EXPECT_NE(loaded.diagnostics.find(unread), std::string::npos) << unread << loaded.diagnostics;
+}
+
+TEST(Mjcf, AFreeJointMayBeOneByItsClass) {
+  const Loaded loaded = load_mjcf(
+      mujoco("<default><joint type=\"free\"/></default><worldbody><body><joint name=\"q\"/>" +
+             ball + "</body></worldbody>"));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  EXPECT_TRUE(loaded.experiment->robots.at(0).mobile);
+}
+
+// A point of 1 kg, 0.1 m below a ball of 1 kg: m x^2 about the centre of both is 2 (0.05)^2.
+TEST(Mjcf, AnInertialWithoutMomentsIsAPoint) {
+  const Loaded loaded =
+      load_mjcf(world("<body><freejoint/><geom size=\"0.1\" mass=\"1\"/><body><inertial pos=\"0 0 "
+                      "-0.1\" mass=\"1\"/></body></body>"));
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  const simulation::MassSpec& mass = loaded.experiment->robots.at(0).base.mass;
+  EXPECT_EQ(mass.mass, 2.);
+  EXPECT_NEAR(mass.inertia.xx, 0.004 + 0.005, 1e-15);
+  EXPECT_NEAR(mass.inertia.zz, 0.004, 1e-15);
+}
+
+TEST(Mjcf, MeshesMayStandInTheFileOrInAnotherFolder) {
+  const testing::Workplace place;
+  place.file("t.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\n");
+  const auto box = [&](const std::string& mesh) {
+    place.file(
+        "robot.xml",
+        mujoco(
+            "<compiler strippath=\"true\"/><default><mesh scale=\"2 2 2\"/></default><asset><mesh "
+            "name=\"m\" " +
+            mesh +
+            "/></asset><worldbody><body><freejoint/><inertial pos=\"0 0 0\" mass=\"1\" "
+            "diaginertia=\"1 1 1\"/><geom type=\"mesh\" mesh=\"m\"/></body></worldbody>"));
+    const Loaded loaded = load_file(
+        place.file("scene.hook", "World w { Include \"robot.xml\" (name = r, meshes = box); }"));
+    EXPECT_TRUE(loaded.experiment) << loaded.diagnostics;
+    if (!loaded.experiment) return Vector3d{};
+    return std::get<simulation::Box>(loaded.experiment->robots.at(0).base.shapes.at(0).geometry)
+        .dimensions;
+  };
+  EXPECT_EQ(box("file=\"some/where/t.obj\""), (Vector3d{2., 4., 6.}));
+  EXPECT_EQ(box("vertex=\"0 0 0 1 0 0 0 2 0 0 0 3\""), (Vector3d{2., 4., 6.}));
+}
+
+TEST(Mjcf, AMocapBodyStandsStillWithWhatItCarries) {
+  const Loaded loaded = load_mjcf(
+      world(
+          "<body><freejoint/>" + ball +
+              "</body><body mocap=\"true\" pos=\"1 0 1\"><geom size=\"0.1\"/><body name=\"kid\"><joint "
+              "axis=\"0 1 0\"/><geom size=\"0.1\" pos=\"0 0 -0.2\"/></body></body>",
+          "<keyframe><key name=\"k\" qpos=\"0 0 1 1 0 0 0 0.5\"/></keyframe>"),
+      ", keyframe = k");
+  ASSERT_TRUE(loaded.experiment) << loaded.diagnostics;
+  ASSERT_EQ(loaded.experiment->robots.size(), 2u);
+  EXPECT_EQ(loaded.experiment->robots[1].chains.at(0).links.at(0).angle, 0.5);
+  EXPECT_NE(loaded.diagnostics.find("mocap of <body>"), std::string::npos) << loaded.diagnostics;
+}
+
 TEST(Mjcf, IncludesStandInTheirPlace) {
   const testing::Workplace place;
   place.file("legs.xml",
@@ -473,6 +704,18 @@ std::string deep_bodies() {
   }
   return world(text + end);
 }
+
+std::string deep_classes() {
+  std::string text;
+  for (int i = 0; i < 60000; ++i) text += fmt::format("<default class=\"c{}\">", i);
+  for (int i = 0; i < 60000; ++i) text += "</default>";
+  return mujoco("<default>" + text + "</default>");
+}
+
+const std::string two_robots = "<body name=\"t\"><freejoint/>" + ball +
+                               "<body><joint name=\"j1\"/>" + ball +
+                               "</body></body><body name=\"u\"><freejoint/>" + ball +
+                               "<body><joint name=\"j2\"/>" + ball + "</body></body>";
 
 const Wrong wrongs[] = {
     {"ball", world("<body>\n<joint type=\"ball\"/>" + ball + "</body>"),
@@ -519,6 +762,53 @@ const Wrong wrongs[] = {
     {"actuator_of_nothing",
      world("<body><freejoint/>" + ball + "</body>", "<actuator>\n<motor joint=\"q\"/></actuator>"),
      "there is no joint `q`"},
+    {"deep_classes", deep_classes(),
+     "default classes stand in each other 501 deep: 500 are the most"},
+    {"unknown_in_world", world("<body><freejoint/>" + ball + "</body>\n<boddy/>"),
+     "error 4:2 <worldbody> has no <boddy>; did you mean `body`?"},
+    {"unknown_in_body", world("<body><freejoint/>" + ball + "\n<geomm/></body>"),
+     "error 4:2 <body> has no <geomm>"},
+    {"unknown_default", mujoco("<default>\n<jointt/></default>"),
+     "error 3:2 <default> has no <jointt>"},
+    {"unknown_actuator", mujoco("<actuator>\n<motr/></actuator>"),
+     "error 3:2 <actuator> has no <motr>"},
+    {"unknown_equality", mujoco("<equality>\n<glue/></equality>"),
+     "error 3:2 <equality> has no <glue>"},
+    {"replicate_in_world", world("<body><freejoint/>" + ball + "</body>\n<replicate count=\"3\"/>"),
+     "error 4:2 <replicate> of the world is not read"},
+    {"attach_in_world", world("<attach model=\"m\"/>"),
+     "error 3:2 <attach> of the world is not read"},
+    {"two_orientations",
+     world("<body>\n<joint/><geom size=\"1\" quat=\"1 0 0 0\" euler=\"0 0 1\"/></body>"),
+     "<geom> has an orientation already, quat: one is allowed"},
+    {"unread_number", world("<body><freejoint/>\n<geom size=\"0.1\" gap=\"x\"/></body>"),
+     "`x` is no number"},
+    {"sensor_of_nothing",
+     world("<body><freejoint/>" + ball + "</body>", "<sensor>\n<jointpos joint=\"q\"/></sensor>"),
+     "there is no joint `q`"},
+    {"exclude_of_nothing",
+     world("<body name=\"b\"><freejoint/>" + ball + "</body>",
+           "<contact>\n<exclude body1=\"b\" body2=\"c\"/></contact>"),
+     "there is no body `c`"},
+    {"tendon_of_nothing",
+     world("<body name=\"b\"><freejoint/>" + ball + "</body>",
+           "<tendon><fixed>\n<joint joint=\"q\" coef=\"1\"/></fixed></tendon>"),
+     "there is no joint `q`"},
+    {"coupled_robots",
+     world(two_robots, "<equality>\n<joint joint1=\"j1\" joint2=\"j2\"/></equality>"),
+     "joint `j1` cannot follow `j2`, which is of another robot"},
+    {"kv_and_ratio",
+     world("<body><joint name=\"q\"/>" + ball + "</body>",
+           "<actuator>\n<position joint=\"q\" kv=\"1\" dampratio=\"1\"/></actuator>"),
+     "kv and dampratio are given: one is allowed"},
+    {"two_ctrl_ranges",
+     world("<body><joint name=\"q\" range=\"0 1\"/>" + ball + "</body>",
+           "<actuator>\n<position joint=\"q\" inheritrange=\"1\" ctrlrange=\"0 1\"/></actuator>"),
+     "ctrlrange and inheritrange are given: one is allowed"},
+    {"no_range_to_inherit",
+     world("<body><joint name=\"q\"/>" + ball + "</body>",
+           "<actuator>\n<position joint=\"q\" inheritrange=\"1\"/></actuator>"),
+     "joint `q` has no range to inherit"},
     {"nothing_moves", world(ball), "error 1:2 the file has no <body> that moves"},
 };
 INSTANTIATE_TEST_SUITE_P(Files, WrongMjcf, ::testing::ValuesIn(wrongs),
