@@ -80,6 +80,10 @@ double depth_of_ridge(const contact::Ridge& ridge, const contact::ShapeRim& shap
                   below(2. * shape.middle - center, -end, slope > 0. ? after : before));
 }
 
+double greatest_radius(const contact::RoundSide& side) {
+  return std::max(side.radius, side.far_radius);
+}
+
 /// The places of one of a rim's points under several faces.
 struct RimOnFaces {
   std::array<contact::Obstruction, contact::most_obstructions> faces;
@@ -252,6 +256,7 @@ void ShapeDetection::add(const ShapeContact& contact) {
   if (contacts_->size() < contacts_->capacity()) {
     contacts_->push_back(contact);
     contacts_->back().order = contacts_->size();
+    contacts_->back().radius = radius_of(contact);
     return;
   }
   // The deepest carry.
@@ -261,31 +266,47 @@ void ShapeDetection::add(const ShapeContact& contact) {
   const std::size_t order = shallowest->order;
   *shallowest = contact;
   shallowest->order = order;
-  contacts_->back().radius = radius_of(contact.key);
+  shallowest->radius = radius_of(contact);
 }
 
-double ShapeDetection::radius_of(const ContactKey& key) const {
+double ShapeDetection::radius_of(const ShapeContact& contact) const {
+  const double a = radius_of_a(contact.key), b = radius_of_b(contact);
+  return a > 0. && b > 0. ? a * b / (a + b) : std::max(a, b);
+}
+
+double ShapeDetection::radius_of_a(const ContactKey& key) const {
   const ShapeObject& a = objects_[static_cast<std::size_t>(key.a)];
-  const ShapeObject& b = objects_[static_cast<std::size_t>(key.b)];
   const std::size_t part = part_of(key.feature);
-  double radius = 0.;
   switch (key.feature / kind_size) {
-    case ball_kind:
-      radius = a.balls[static_cast<std::size_t>(key.feature)].radius;
-      break;
+    case ball_kind: {
+      const BallFeature& ball = a.balls[static_cast<std::size_t>(key.feature)];
+      return std::max(ball.radius, ball.rim_radius);
+    }
     case rim_kind:
-      radius = a.rims[part].rim.radius;
-      break;
+      return a.rims[part].rim.radius;
     case side_kind:
-      radius = std::max(a.sides[part].side.radius, a.sides[part].side.far_radius);
-      break;
+      return greatest_radius(a.sides[part].side);
     default:
-      break;
+      return 0.;
   }
-  if (key.other / kind_size == round_kind)
-    return std::max({radius, b.rounds[part_of(key.other)].solid.radius,
-                     b.rounds[part_of(key.other)].solid.far_radius});
-  return radius;
+}
+
+double ShapeDetection::radius_of_b(const ShapeContact& contact) const {
+  const ShapeObject& b = objects_[static_cast<std::size_t>(contact.key.b)];
+  const std::size_t part = part_of(contact.key.other);
+  switch (contact.key.other / kind_size) {
+    case side_kind:
+      return greatest_radius(b.sides[part].side);
+    case round_kind: {
+      const contact::RoundSolid& solid = b.rounds[part].solid;
+      constexpr double flat = 1. - 1e-9;  // cosine between an end's normal and the contact's
+      const Vector3d axis = motions_[static_cast<std::size_t>(contact.key.b)].R_WB * solid.axis;
+      if (solid.flat_ends && std::abs(dot(contact.normal, axis)) > flat) return 0.;
+      return std::max(solid.radius, solid.far_radius);
+    }
+    default:
+      return 0.;
+  }
 }
 
 int ShapeDetection::material_of(std::size_t object, const Vector3d& place, int stated) const {

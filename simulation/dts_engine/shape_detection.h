@@ -58,7 +58,9 @@ struct ShapeContact {
   /// The law counts the depth from here: the least at which it has been since it began inside [m].
   double begun_at = 0.;
   std::size_t order = 0;  ///< in which it was found
-  double radius = 0.;     ///< of the ball, rim or round side that touches; 0 of none [m]
+  /// On which they roll on each other: of the ball, rim or round side that touches; of two of them
+  /// r_a r_b/(r_a + r_b), as their curvatures add up; 0 of none [m].
+  double radius = 0.;
 };
 
 /// Velocity that belts give a's material over b's, beside the objects' motion [m/s].
@@ -147,8 +149,10 @@ class ShapeDetection {
   contact::BodyEdge edge_of(const PolyhedronFeature& polyhedron, std::size_t ridge, std::size_t a,
                             const ObjectMotion& frame) const;
   void add(const ShapeContact& contact);
-  /// Radius of the round feature of a contact; 0 of none [m].
-  double radius_of(const ContactKey& key) const;
+  /// ShapeContact::radius.
+  double radius_of(const ShapeContact& contact) const;
+  double radius_of_a(const ContactKey& key) const;
+  double radius_of_b(const ShapeContact& contact) const;
   int material_of(std::size_t object, const Vector3d& place, int stated) const;
   /// Box of an object in the frame of another.
   contact::Region box_in(std::size_t object, const ObjectMotion& frame) const;

@@ -106,6 +106,7 @@ class FeatureMaker {
       sample.center = rim.center + rim.radius * radial;
       sample.material = shape_.material;
       sample.is_rim_sample = true;
+      sample.rim_radius = rim.radius;
       object_.balls.push_back(sample);
     }
   }

@@ -27,6 +27,7 @@ struct BallFeature {
   bool is_corner = false;  ///< of a polyhedron
   /// A sample of a rim, which only a grid of heights feels: there rims are points.
   bool is_rim_sample = false;
+  double rim_radius = 0.;  ///< of the rim that a sample is of; 0 of others [m]
   Vector3d cap{};  ///< of a capsule's end, its axis out of the capsule, unit; zero of others
 };
 struct RimFeature {

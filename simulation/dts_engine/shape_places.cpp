@@ -74,7 +74,10 @@ void ShapePlaces::put(const ShapeContact& contact, std::span<const ArticulatedRo
                         : static_cast<int>(object.index) + (ground_ != nullptr ? 1 : 0);
     place.surface_velocity += sign * detection_.motions()[index].velocity_at(contact.place);
   };
-  const double ball = contact.is_tracked() ? contact.radius : 0.;
+  const std::vector<BallFeature>& balls =
+      detection_.objects()[static_cast<std::size_t>(contact.key.a)].balls;
+  const double ball =
+      contact.is_tracked() ? balls[static_cast<std::size_t>(contact.key.feature)].radius : 0.;
   add(contact.key.a, 1., contact.place + ball * contact.normal);
   add(contact.key.b, -1., contact.place);
 }

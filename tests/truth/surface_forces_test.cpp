@@ -62,6 +62,100 @@ TEST_P(SurfaceForces, ABallWithoutResistanceRollsOn) {
   EXPECT_NEAR(run["ball.velocity.x"], 1., 1e-6);
 }
 
+/// Deceleration from 0.3 to 0.8 s of robot b, which rolls along x.
+double braking(const std::string& text) {
+  Running run(text);
+  run.step(3000);
+  const double before = run["b.velocity.x"];
+  run.step(5000);
+  return (before - run["b.velocity.x"]) / 0.5;
+}
+
+/// A body of 1 kg with `shape` of radius 0.1 m about the world's y, which rolls at 1 m/s on `ground`.
+std::string rolls(const std::string& ground, const std::string& turn, const std::string& shape) {
+  return "World w { deltat = 0.1 ms; gravity = 9.81; Material m { normal_stiffness = 1e5; "
+         "normal_damping = 300; tangential_stiffness = 1e5; tangential_damping = 300; "
+         "rolling_resistance = 2 mm; } " +
+         ground + " Robot b { Base.mobile { location = 0, 0, 0.0999; orientation = " + turn +
+         "; velocity = 1, 0, 0; angular_velocity = 0, 10, 0; mass = 1; inertia = 0.005, 0.005, 0.005, "
+         "0, 0, 0; " +
+         shape + " } } }";
+}
+const std::string flat = "Terrain.Flat ground { material = m; }";
+
+// The moment b N and the friction F give m a = F and I a/r = b N - F r: a = g b/(r (1 + I/(m r^2))), with
+// I = m r^2/2 here for every shape.
+TEST(RollingResistance, BrakesEveryRoundShape) {
+  const double a = g * 0.002 / (0.1 * 1.5);
+  const std::string lying = "pi/2, 0, 0";
+  for (
+      const char* shape :
+      {"Shape.Sphere { radius = 0.1; }", "Shape.Cylinder { radius = 0.1; length = 0.05; }",
+       "Shape.Capsule { radius = 0.1; length = 0.05; }", "Shape.Disc { radius = 0.1; }",
+       "Shape.Legcone { length = 0.05; proximal_radius = 0.1; distal_radius = 0.1; orientation = 0, "
+       "pi/2, 0; location = 0, 0, 0.025; }"})
+    EXPECT_NEAR(braking(rolls(flat, lying, shape)), a, 0.01 * a) << shape;
+}
+
+TEST(RollingResistance, BrakesOnEveryGround) {
+  const double a = g * 0.002 / (0.1 * 1.5);
+  for (const char* ground :
+       {"Obstacle.Box ground { dimensions = 10, 10, 1; location = 0, 0, -0.5; material = m; }",
+        "Terrain.Steps ground { height = 0.1; run = 1; from = 3; count = 1; material = m; }"})
+    for (const char* shape :
+         {"Shape.Sphere { radius = 0.1; }", "Shape.Cylinder { radius = 0.1; length = 0.05; }"})
+      EXPECT_NEAR(braking(rolls(ground, "pi/2, 0, 0", shape)), a, 0.01 * a) << ground << shape;
+  EXPECT_NEAR(
+      braking(rolls("Terrain.Rough ground { amplitude = 1e-9; wavelength = 0.4; material = m; }",
+                    "0, 0, 0", "Shape.Sphere { radius = 0.1; }")),
+      a, 0.01 * a);
+}
+
+// A car of M on a wheel of m: (M + m) a = F and I a/r = b (M + m) g - F r.
+TEST(RollingResistance, BrakesAWheel) {
+  const double a = 0.002 * 2. * g / (0.1 * (2. + 0.5));
+  EXPECT_NEAR(
+      braking(
+          "World w { gravity = 9.81; deltat = 0.1 ms; Material m { rolling_resistance = 2 mm; } "
+          "Terrain.Flat ground { material = m; } Robot b { Base.planar { plane = xz; location = 0, "
+          "0, 0.0999; velocity = 1, 0, 0; mass = 1; inertia = 0.01, 0.01, 0.01, 0, 0, 0; } Chain f "
+          "{ hip_orientation = -pi/2, 0, 0; Link wheel { rate = 10; mass = 1; Shape.Cylinder { "
+          "radius = 0.1; length = 0.05; } } } } }"),
+      a, 0.01 * a);
+}
+
+/// Spin about the vertical that robot b of 1 kg and I = 0.005 kg m^2 has after 0.5 s, from 10 rad/s and
+/// without friction.
+double spin_left(const std::string& ground, double height, const std::string& shape) {
+  Running run(
+      "World w { deltat = 0.1 ms; gravity = 9.81; Material m { normal_stiffness = 1e5; normal_damping = "
+      "300; static_friction = 0; kinetic_friction = 0; spinning_resistance = 1 mm; } " +
+      ground + " Robot b { Base.mobile { location = 0, 0, " + std::to_string(height) +
+      "; angular_velocity = 0, 0, 10; mass = 1; inertia = 0.005, 0.005, 0.005, 0, 0, 0; " + shape +
+      " } } }");
+  run.step(5000);
+  return run["b.angular_velocity.z"];
+}
+
+// I w' = -s m g on a ball and on a tin that stands, on whatever it stands; corners of a box have no radius.
+TEST(SpinningResistance, SlowsRoundShapesAndNoCorners) {
+  const double left = 10. - 0.001 * g / 0.005 * 0.5;
+  const std::string box =
+      "Obstacle.Box ground { dimensions = 9, 9, 1; location = 0, 0, -0.5; material = m; }";
+  const std::string post =
+      "Obstacle.Cylinder ground { radius = 1; length = 1; location = 0, 0, -0.5; material = m; }";
+  const std::string rough =
+      "Terrain.Rough ground { amplitude = 1e-9; wavelength = 0.4; material = m; }";
+  for (const std::string& ground : {flat, box, post, rough}) {
+    EXPECT_NEAR(spin_left(ground, 0.0999, "Shape.Sphere { radius = 0.1; }"), left, 2e-3) << ground;
+    EXPECT_NEAR(spin_left(ground, 0.02, "Shape.Cylinder { radius = 0.1; length = 0.04; }"), left,
+                2e-3)
+        << ground;
+    EXPECT_NEAR(spin_left(ground, 0.02, "Shape.Box { dimensions = 0.1, 0.1, 0.04; }"), 10., 0.01)
+        << ground;
+  }
+}
+
 /// A magnet foot of 2 kg on a wall: four points of 15 N hold it by friction, less what pulls at it;
 /// more than 60 N tears it off.
 TEST_P(SurfaceForces, AMagnetHoldsUntilItIsTornOff) {
