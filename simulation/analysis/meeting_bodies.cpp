@@ -58,7 +58,7 @@ double most_inverse_mass(const Meets& a, const Meets& b) {
 }
 
 double inverse_mass(const Meets& a, const Meets& b, bool same_robot) {
-  if (same_robot) {
+  if (same_robot && a.lever.size() > 0 && b.lever.size() > 0) {
     const Eigen::MatrixXd apart = a.lever - b.lever;
     return largest_eigenvalue(apart.transpose() * apart);
   }
