@@ -151,7 +151,7 @@ Vector3d RobotAtRest::base_rotation(const Eigen::VectorXd& z) const {
   return {rotation.x(), rotation.y(), rotation.z()};
 }
 
-LinearDynamics RobotAtRest::joints_alone() const {
+LinearDynamics RobotAtRest::without_contacts() const {
   const Eigen::MatrixXd levers = joint_levers();
   LinearDynamics dynamics{
       Eigen::MatrixXd::Zero(size(), size()), Eigen::MatrixXd::Zero(size(), size()), levers, {}};
@@ -165,7 +165,27 @@ LinearDynamics RobotAtRest::joints_alone() const {
     dynamics.damping += spring.damping * moved * moved.transpose();
   }
   dynamics.of_joints = {dynamics.stiffness, dynamics.damping};
+  add_loop_springs(dynamics);
   return dynamics;
+}
+
+void RobotAtRest::add_loop_springs(LinearDynamics& dynamics) const {
+  for (const LoopSpring& spring : robot_->robot().constraints().springs(workspace_)) {
+    const Eigen::MatrixXd apart = lever(spring.places[0]) - lever(spring.places[1]);
+    dynamics.stiffness += spring.stiffness * apart * apart.transpose();
+    dynamics.damping += spring.damping * apart * apart.transpose();
+  }
+  const std::vector<SteadyLoad> loads = loop_loads();
+  if (!loads.empty()) dynamics.stiffness += stiffness_of(loads);
+}
+
+std::vector<SteadyLoad> RobotAtRest::loop_loads() const {
+  std::vector<SteadyLoad> loads;
+  for (const LoopSpring& spring : robot_->robot().constraints().springs(workspace_)) {
+    loads.push_back({spring.places[0], spring.force});
+    loads.push_back({spring.places[1], -spring.force});
+  }
+  return loads;
 }
 
 // Where the coordinate i stands before j on the way to the point, turning by i turns all that j
@@ -259,7 +279,7 @@ std::vector<SteadyLoad> RobotAtRest::weights(const Vector3d& gravity) const {
 
 LinearDynamics linear_dynamics(const RobotAtRest& rest, const std::vector<ContactSpring>& springs,
                                const std::vector<SteadyLoad>& loads) {
-  LinearDynamics dynamics = rest.joints_alone();
+  LinearDynamics dynamics = rest.without_contacts();
   for (const ContactSpring& spring : springs) {
     dynamics.stiffness += spring.lever * spring.stiffness * spring.lever.transpose();
     dynamics.damping += spring.lever * spring.damping * spring.lever.transpose();

@@ -61,9 +61,11 @@ class RobotAtRest {
   /// The rotation of the base in z [rad]; 0 of a fixed one.
   Vector3d base_rotation(const Eigen::VectorXd& z) const;
 
-  /// What the joints do by themselves: spring, damper, dry friction that sticks, a stop that is
-  /// reached.
-  LinearDynamics joints_alone() const;
+  /// What the robot does by itself: of its joints spring, damper, dry friction that sticks, a stop that
+  /// is reached; and the springs and dampers of compliant loops.
+  LinearDynamics without_contacts() const;
+  /// What the springs of compliant loops exert at this posture.
+  std::vector<SteadyLoad> loop_loads() const;
   /// -d(J^T f)/dz of loads that stay as they are while their points move: of gravity a pendulum's
   /// m g l. Exact where the loads are in equilibrium with all else. O(loads + size^3), of which the
   /// cubic part is a product of matrices.
@@ -76,6 +78,10 @@ class RobotAtRest {
   Eigen::Index robot_links() const {
     return static_cast<Eigen::Index>(robot_->model().link_count());
   }
+
+  /// With c = x_a - x_b the gap: the force -k c moves z by -k (J_a - J_b)^T c, which changes with the gap,
+  /// (J_a - J_b)^T k (J_a - J_b), and with the directions in which the places move, stiffness_of.
+  void add_loop_springs(LinearDynamics& dynamics) const;
 
   const RobotSystem* robot_;
   mutable dts::Workspace<double> workspace_;  ///< articulated inertias, and what a response needs

@@ -134,7 +134,7 @@ LinearDynamics linear_dynamics(const RobotsInTouch& group, std::span<const Robot
   for (const auto& [robot, at] : blocks) {
     const RobotAtRest& rest = rests[robot];
     const Eigen::Index n = rest.size();
-    LinearDynamics own = rest.joints_alone();
+    LinearDynamics own = rest.without_contacts();
     // What falls freely feels no weight; what stands feels it through its contacts, where it adds little.
     if (!rest.robot().model().mobile()) own.stiffness += rest.stiffness_of(rest.weights(gravity));
     dynamics.stiffness.block(at.coordinate, at.coordinate, n, n) = own.stiffness;

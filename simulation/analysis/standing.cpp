@@ -232,7 +232,7 @@ class StanceFinder {
         rest_(rest),
         budget_(budget),
         drives_{experiment, index, driven_of(control, index)},
-        joint_torques_(drives_.torques(rest)),
+        own_pushes_(drives_.torques(rest) + rest.pushed_by(rest.loop_loads())),
         weight_(moving_mass(experiment.robots[index]) * norm(experiment.gravity)) {
     const auto size = static_cast<double>(rest.size());
     const ContactSet& contacts = rest.robot().contacts();
@@ -277,7 +277,7 @@ class StanceFinder {
   /// Weights in that gravity, Forces (those over a window at their height, or not), joints.
   Pushes pushes(const Vector3d& gravity, bool with_windows) const {
     const RobotSystem& robot = rest_.robot();
-    Pushes pushes{rest_.weights(gravity), joint_torques_};
+    Pushes pushes{rest_.weights(gravity), own_pushes_};
     for (const std::size_t i : robot.robot().forces()) {
       const ForceSpec& force = experiment_.forces[i];
       if (force.window && !with_windows) continue;
@@ -299,10 +299,10 @@ class StanceFinder {
            moment.z * arm({1., 0., 0.}, 1);
   }
 
-  /// What joints oppose to a displacement; one that is driven to somewhere holds, far stiffer than
-  /// the ground.
+  /// What joints and springs of loops oppose to a displacement; a joint that is driven to
+  /// somewhere holds, far stiffer than the ground.
   MatrixXd joint_stiffness(std::span<const Support> supports) const {
-    MatrixXd stiffness = rest_.joints_alone().stiffness;
+    MatrixXd stiffness = rest_.without_contacts().stiffness;
     if (drives_.driven.empty()) return stiffness;
     constexpr double held = 1e4;
     const contact::LawDescription& law = *contact::find_force_law(experiment_.contact);
@@ -410,8 +410,8 @@ class StanceFinder {
   const RobotAtRest& rest_;
   AnalysisBudget& budget_;
   Drives drives_;
-  VectorXd joint_torques_;  ///< of all joints, over z
-  double weight_;           ///< [N]
+  VectorXd own_pushes_;  ///< of all joints and of springs of loops, over z
+  double weight_;        ///< [N]
   std::vector<Support> supports_;
   Stances stances_;
 };
@@ -434,6 +434,7 @@ bool hang(const Experiment& experiment, std::size_t index, const WiredControl& c
                            [](const DrivenJoint& drive) { return drive.goal.has_value(); }))
     return false;
   std::vector<double> q(robot.position_size()), v(robot.velocity_size(), 0.);
+  double loops_pulled = 0.;  // the most on any try: at rest springs may pull at nothing
   for (int i = 0; i < most_tries; ++i) {
     // The robot at rest, its stiffness, a solution, and its eigenvalues where it may fall over.
     const double work = 3. * std::pow(static_cast<double>(robot.dof_count()), 3);
@@ -441,11 +442,19 @@ bool hang(const Experiment& experiment, std::size_t index, const WiredControl& c
     budget.spend(work);
     const RobotAtRest rest(robot);
     const std::vector<SteadyLoad> weights = rest.weights(experiment.gravity);
-    const VectorXd left = drives.torques(rest) + rest.pushed_by(weights);
+    std::vector<SteadyLoad> loads = weights;
     double most = tiny;
     for (const SteadyLoad& weight : weights)
       most += rest.lever_size(weight.point) * norm(weight.force);
-    MatrixXd stiffness = rest.joints_alone().stiffness + rest.stiffness_of(weights);
+    double most_of_loops = 0.;
+    for (const SteadyLoad& load : rest.loop_loads()) {
+      most_of_loops += rest.lever_size(load.point) * norm(load.force);
+      loads.push_back(load);
+    }
+    loops_pulled = std::max(loops_pulled, most_of_loops);
+    most += loops_pulled;
+    const VectorXd left = drives.torques(rest) + rest.pushed_by(loads);
+    MatrixXd stiffness = rest.without_contacts().stiffness + rest.stiffness_of(weights);
     const MatrixXd levers = rest.joint_levers();
     for (const DrivenJoint& drive : drives.driven) {
       const VectorXd lever = levers.row(static_cast<Eigen::Index>(drive.joint)).transpose();

@@ -59,6 +59,13 @@ ConstraintSet::ConstraintSet(const Experiment& experiment, std::size_t index,
   moved_.joint_rates.resize(model.link_count());
 }
 
+ConstraintSet::Point ConstraintSet::place_of(const LoopSpec& loop) {
+  return {0,
+          {static_cast<std::size_t>(loop.body_a), static_cast<std::size_t>(loop.body_b)},
+          {loop.point_a, loop.point_b},
+          {}};
+}
+
 dts::BodyPoint<double> ConstraintSet::at(const Point& point, std::size_t side,
                                          const dts::Workspace<double>& workspace) const {
   const dts::BodyMotion<double>& body = workspace.bodies[point.bodies[side]];
@@ -85,15 +92,25 @@ void ConstraintSet::watch_rank() {
   if (rank_ < regular_->first || share < singular_share * regular_->second) notice_ = singular_;
 }
 
+std::vector<LoopSpring> ConstraintSet::springs(const dts::Workspace<double>& workspace) const {
+  std::vector<LoopSpring> all;
+  for (const std::size_t i : loops_) {
+    const LoopSpec& loop = experiment_.loops[i];
+    if (!loop.stiffness) continue;
+    const Point point = place_of(loop);
+    all.push_back({{at(point, 0, workspace), at(point, 1, workspace)},
+                   -(*loop.stiffness) * gap(point, workspace),
+                   *loop.stiffness,
+                   loop.damping});
+  }
+  return all;
+}
+
 void ConstraintSet::add_spring_forces(dts::Workspace<double>& workspace) const {
   for (const std::size_t i : loops_) {
     const LoopSpec& loop = experiment_.loops[i];
     if (!loop.stiffness) continue;
-    const Point point{
-        0,
-        {static_cast<std::size_t>(loop.body_a), static_cast<std::size_t>(loop.body_b)},
-        {loop.point_a, loop.point_b},
-        {}};
+    const Point point = place_of(loop);
     const Vector3d force =
         -(*loop.stiffness) * gap(point, workspace) - loop.damping * gap_rate(point, workspace);
     for (const std::size_t side : {0, 1}) {
@@ -300,11 +317,7 @@ void ConstraintSet::publish(const dts::Workspace<double>& workspace,
                             std::span<LoopState> loops) const {
   for (const std::size_t i : loops_) {
     const LoopSpec& loop = experiment_.loops[i];
-    const Point point{
-        0,
-        {static_cast<std::size_t>(loop.body_a), static_cast<std::size_t>(loop.body_b)},
-        {loop.point_a, loop.point_b},
-        {}};
+    const Point point = place_of(loop);
     LoopState& state = loops[i];
     state = {};
     state.error = norm(gap(point, workspace));

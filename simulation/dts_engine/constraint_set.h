@@ -21,6 +21,13 @@
 
 namespace hookpoint::simulation {
 
+/// A compliant loop: a spring and a damper between a place of body a and one of body b.
+struct LoopSpring {
+  std::array<dts::BodyPoint<double>, 2> places;
+  Vector3d force;                       ///< of the spring on a, world axes [N]
+  double stiffness = 0., damping = 0.;  ///< [N/m, N s/m]
+};
+
 class ConstraintSet {
  public:
   /// Those of robot `index`. Allocates; nothing else does.
@@ -33,6 +40,8 @@ class ConstraintSet {
   /// or a coupled joint.
   bool joins_limbs() const { return !loops_.empty() || constrains(); }
 
+  /// The compliant loops at the kinematics in the workspace. Allocates.
+  std::vector<LoopSpring> springs(const dts::Workspace<double>& workspace) const;
   /// Adds what springs and dampers of compliant loops exert. After forward_kinematics.
   void add_spring_forces(dts::Workspace<double>& workspace) const;
   /// What constraint forces are for: that accelerations keep the constraints met at this moment,
@@ -96,6 +105,8 @@ class ConstraintSet {
     }
   };
 
+  /// The place where a loop that is no hinge joins its bodies.
+  static Point place_of(const LoopSpec& loop);
   dts::BodyPoint<double> at(const Point& point, std::size_t side,
                             const dts::Workspace<double>& workspace) const;
   Vector3d gap(const Point& point, const dts::Workspace<double>& workspace) const;

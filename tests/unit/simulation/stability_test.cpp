@@ -70,6 +70,48 @@ TEST(StabilityBound, OfBodiesThatMeetIsThatOfTheLightestPairInAnyOrder) {
   } while (std::ranges::next_permutation(masses).found);
 }
 
+// A slide of 2 kg over the base that carries it, with a link between that joins no shape to either: along
+// the parallel axes of both joints a force moves the tip alone, k = 1e5 N/m.
+TEST(StabilityBound, OfALinkThatMeetsItsOwnFixedBaseIsThatOfItsMass) {
+  const simulation::StabilityBound bound = bound_of(
+      "World w { gravity = 0; Material m { normal_stiffness = 1e5; normal_damping = 0; "
+      "tangential_stiffness = 1e5; tangential_damping = 0; } Robot r { self_contact = true; Base.fixed "
+      "{ material = m; Shape.Sphere { radius = 0.02; } } Chain c { Link a { joint = prismatic; mass = "
+      "5; } Link b { joint = prismatic; angle = 0.3; mass = 2; material = m; Shape.Sphere { radius = "
+      "0.02; } } } } }");
+  EXPECT_EQ(bound.contacts, simulation::StabilityBound::Contacts::meeting);
+  // Both sides state 1e5 N/m: in series half of it.
+  EXPECT_NEAR(bound.step, semi_implicit(0.5e5, 0., 2.), 1e-9);
+}
+
+/// A slide of 2 kg on `base`, with a Loop's spring to it.
+std::string sprung(const std::string& base, const std::string& loop) {
+  return "World w { gravity = 0; Robot m { " + base +
+         " Chain b { Link slide { joint = prismatic; mass = 2; } } Loop sp { a = b.slide; b = base; " +
+         loop + " } } }";
+}
+
+TEST(StabilityBound, OfALoopsSpringIsThatOfItsStiffnessAndDamping) {
+  const std::string fixed = "Base.fixed;";
+  EXPECT_NEAR(bound_of(sprung(fixed, "stiffness = 8e7;")).step, 2. * std::sqrt(2. / 8e7), 1e-9);
+  EXPECT_NEAR(bound_of(sprung(fixed, "stiffness = 8e7; damping = 5e3;")).step,
+              semi_implicit(8e7, 5e3, 2.), 1e-9);
+  // Two masses m and M swing against each other with the mass m M/(m + M).
+  const std::string free = "Base.mobile { mass = 6; inertia = 1, 1, 1, 0, 0, 0; }";
+  EXPECT_NEAR(bound_of(sprung(free, "stiffness = 8e7;")).step, 2. * std::sqrt(1.5 / 8e7), 1e-9);
+}
+
+// A rod of l = 0.2 m from its pivot, its end pulled by k = 1e4 N/m to a place d = 0.5 m from the pivot. At
+// an angle q between the two the spring holds k (l^2 + d^2 - 2 l d cos q)/2: its stiffness is k l d, of
+// which its stretch has k l (d - l).
+TEST(StabilityBound, OfALoopsSpringCountsItsStretch) {
+  const simulation::StabilityBound bound = bound_of(
+      "World w { gravity = 0; Robot m { Base.fixed; Chain c { Link rod { mass = 1; inertia = 0.01, "
+      "0.01, 0.01, 0, 0, 0; } } Loop sp { a = c.rod; b = base; point_a = 0.2, 0, 0; point_b = 0.5, 0, "
+      "0; stiffness = 1e4; } } }");
+  EXPECT_NEAR(bound.step, 2. * std::sqrt(0.01 / (1e4 * 0.2 * 0.5)), 1e-9);
+}
+
 // Tilted by 10 deg from 10 cm: it trembled for ever at 1 ms, with a bound of 1.034 ms printed.
 TEST(StabilityBound, OfTheDefaultBoxDroppedOnAnEdgeIsBelowTheDefaultStep) {
   const simulation::StabilityBound bound = bound_of(
