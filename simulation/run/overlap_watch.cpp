@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulation/experiment/names.h"
 #include "simulation/experiment/robot_tree.h"
 
 namespace hookpoint::simulation {
@@ -12,13 +13,6 @@ namespace {
 
 /// What touches by its law sinks in; less than that is nothing to speak of [m].
 constexpr double least_overlap = 1e-4;
-
-std::vector<std::string> body_names(const RobotSpec& robot) {
-  std::vector<std::string> names{robot.base.name.empty() ? "base" : robot.base.name};
-  for_each_link(
-      robot, [&](const TreeLink& at) { names.push_back(at.chain.name + "." + at.link.body.name); });
-  return names;
-}
 
 }  // namespace
 
