@@ -136,11 +136,8 @@ class PeerEngine final : public simulation::Engine,
     publish();
     for (simulation::SurfaceMotion& obstacle : inputs_.obstacles)
       simulation::advance(obstacle, experiment_.deltat);
-    if (std::string notice = world_->notice(); !notice.empty()) {
-      std::array<char, 32> time{};
-      std::snprintf(time.data(), time.size(), "%g s: ", state_.time);
-      state_.notices.push_back(time.data() + std::move(notice));
-    }
+    if (std::string notice = world_->notice(); !notice.empty()) notify(std::move(notice));
+    look_for_open_loop();
     return {};
   }
 
@@ -176,6 +173,43 @@ class PeerEngine final : public simulation::Engine,
   simulation::GroundForceTime tells_ground_forces() const override { return world_->force_time(); }
 
  private:
+  void notify(std::string notice) {
+    std::array<char, 32> time{};
+    std::snprintf(time.data(), time.size(), "%g s: ", state_.time);
+    state_.notices.push_back(time.data() + std::move(notice));
+  }
+
+  /// Notices the first loop that the library does not keep closed: bodies then do what they like.
+  void look_for_open_loop() {
+    if (loop_opened_) return;
+    for (std::size_t i = 0; i < experiment_.loops.size(); ++i) {
+      const double error = state_.loops[i].error;
+      if (!(error > open_part * loop_sizes_[i])) continue;
+      loop_opened_ = true;
+      const simulation::LoopSpec& loop = experiment_.loops[i];
+      return notify(fmt::format(
+          "engine {}: Loop {}.{} has opened by {:.2g} m, more than {:g} of the distance of its places from "
+          "the base: the engine does not keep it closed; make deltat smaller, give links masses that are "
+          "not so different, or choose engine dts",
+          source_.engine.name, experiment_.robots[loop.robot].name, loop.name, error, open_part));
+    }
+  }
+
+  /// Of each loop the greatest distance of its two places from the robot's base [m].
+  void measure_loops() {
+    loop_sizes_.clear();
+    for (const simulation::LoopSpec& loop : experiment_.loops) {
+      const Vector3d& base = state_.bodies[tree_.index(loop.robot, 0)].position;
+      const auto distance = [&](int number, const Vector3d& point) {
+        const BodyState& body = state_.bodies[tree_.index(loop.robot, number)];
+        return norm(body.position + rotate(body.orientation, point) - base);
+      };
+      loop_sizes_.push_back(
+          std::max(distance(loop.body_a, loop.point_a), distance(loop.body_b, loop.point_b)));
+    }
+    loop_opened_ = false;
+  }
+
   /// Publishes the initial state of the robots.
   void take_start(const RobotTree& tree) {
     for (std::size_t i = 0; i < tree.bodies.size(); ++i) {
@@ -189,6 +223,7 @@ class PeerEngine final : public simulation::Engine,
     std::ranges::fill(state_.loops, simulation::LoopState{});
     next_bodies_ = state_.bodies;
     next_joints_ = state_.joints;
+    measure_loops();
   }
 
   /// What the joints exert by themselves (docs/joints.md) and what their drives may give every peer
@@ -322,6 +357,10 @@ class PeerEngine final : public simulation::Engine,
   std::vector<simulation::FrictionHook> hooks_;  ///< of the joints' dry friction
   std::vector<double> drive_torques_;            ///< within effort_limit
   std::vector<HeldBackTorques> held_back_;       ///< one a robot
+  /// Of the distance of a loop's places from the base: a loop that is so far open is lost.
+  static constexpr double open_part = 0.1;
+  std::vector<double> loop_sizes_;  ///< [m]
+  bool loop_opened_ = false;        ///< said once
   bool has_details_ = false;
   StepStatus failure_;
 };
@@ -359,8 +398,10 @@ std::unique_ptr<simulation::Engine> make_peer_engine(const simulation::Experimen
     throw simulation::ExperimentError(engine + "this build has no " + std::string(peer.library) +
                                       "; install " + std::string(peer.package) +
                                       " and build again");
-  auto notices = check_supported(experiment, peer.describe());
-  std::ranges::move(notices_of_unread_constants(experiment, peer), std::back_inserter(notices));
+  const simulation::EngineDescription description = peer.describe();
+  auto notices = check_supported(experiment, description);
+  std::ranges::move(notices_of_unread_constants(experiment, description),
+                    std::back_inserter(notices));
   check_triangles(experiment, peer);
   return make_peer_engine(experiment,
                           {peer.describe(),
