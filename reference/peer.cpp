@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "simulation/experiment/material_fields.h"
+
 namespace hookpoint::reference {
 
 std::vector<std::string> Peer::settings_names() const {
@@ -16,6 +18,12 @@ simulation::EngineDescription Peer::describe() const {
                                        settings_names(),  common_gaps_and(gaps)};
   if (has_gap(engine, feature::two_frictions)) engine.one_friction = engine.settings;
   if (!one_friction_setting.empty()) engine.one_friction.emplace_back(one_friction_setting);
+  for (const std::string& settings : engine.settings) {
+    std::vector<std::string>& reads = engine.reads[settings];
+    if (settings_named(settings, *this) != Settings::matched) continue;
+    for (const auto constant : matched_constants)
+      reads.emplace_back(simulation::field_of(constant).name);
+  }
   return engine;
 }
 

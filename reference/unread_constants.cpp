@@ -6,7 +6,6 @@
 #include <span>
 
 #include "contact/laws/surface_forces.h"
-#include "reference/peer.h"
 #include "simulation/experiment/material_fields.h"
 
 namespace hookpoint::reference {
@@ -22,29 +21,45 @@ bool has_a_gap_of_its_own(Constant constant) {
          std::ranges::count(contact::surface_constants, constant) > 0;
 }
 
+/// Those of `constants` that the engine reads at a setting.
+std::vector<Constant> read_at(const simulation::EngineDescription& engine,
+                              const std::string& settings, std::span<const Constant> constants) {
+  std::vector<Constant> read;
+  const auto reads = engine.reads.find(settings);
+  if (reads == engine.reads.end()) return read;
+  for (const Constant constant : constants)
+    if (std::ranges::count(reads->second, simulation::field_of(constant).name) > 0)
+      read.push_back(constant);
+  return read;
+}
+
+/// "; `settings = matched` reads `normal_stiffness`": of the first setting that reads some of them.
+std::string what_reads(const simulation::EngineDescription& engine,
+                       std::span<const Constant> constants) {
+  for (const std::string& settings : engine.settings) {
+    const std::vector<Constant> read = read_at(engine, settings, constants);
+    if (!read.empty())
+      return fmt::format("; `settings = {}` reads {}", settings, simulation::quoted_fields(read));
+  }
+  return "";
+}
+
 }  // namespace
 
 std::vector<std::string> notices_of_unread_constants(const simulation::Experiment& experiment,
-                                                     const Peer& peer) {
-  const bool matched = settings_of(experiment, peer) == Settings::matched;
+                                                     const simulation::EngineDescription& engine) {
   std::vector<std::string> notices;
+  if (!engine.reads.contains(experiment.settings)) return notices;
   for (const simulation::MaterialSpec& material : experiment.materials) {
-    std::vector<Constant> unread, read_when_matched;
-    for (const Constant constant : material.meant) {
-      if (has_a_gap_of_its_own(constant)) continue;
-      const bool soft = std::ranges::count(peer.matched_constants, constant) > 0;
-      if (soft && matched) continue;
-      unread.push_back(constant);
-      if (soft) read_when_matched.push_back(constant);
-    }
+    std::vector<Constant> unread = material.meant;
+    std::erase_if(unread, has_a_gap_of_its_own);
+    for (const Constant read : read_at(engine, experiment.settings, unread))
+      std::erase(unread, read);
     if (unread.empty()) continue;
-    notices.push_back(fmt::format(
-        "engine {}: {} of material '{}' {} not read at `settings = {}`{}", peer.name,
-        simulation::quoted_fields(unread), material.name, unread.size() == 1 ? "is" : "are",
-        experiment.settings,
-        read_when_matched.empty()
-            ? ""
-            : "; `settings = matched` reads " + simulation::quoted_fields(read_when_matched)));
+    notices.push_back(fmt::format("engine {}: {} of material '{}' {} not read at `settings = {}`{}",
+                                  engine.name, simulation::quoted_fields(unread), material.name,
+                                  unread.size() == 1 ? "is" : "are", experiment.settings,
+                                  what_reads(engine, unread)));
   }
   return notices;
 }

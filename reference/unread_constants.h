@@ -6,11 +6,9 @@
 #include <vector>
 
 #include "contact/vocabulary.h"
-#include "simulation/experiment/experiment.h"
+#include "simulation/engine_interface/engine.h"
 
 namespace hookpoint::reference {
-
-struct Peer;
 
 /// What a peer makes its contacts of at `settings = matched`, beside friction; at its other settings
 /// contacts have the library's own softness.
@@ -20,9 +18,10 @@ inline constexpr std::array<double contact::MaterialConstants<double>::*, 4> spr
     &contact::MaterialConstants<double>::tangential_stiffness,
     &contact::MaterialConstants<double>::tangential_damping};
 
-/// A notice of each material of `experiment` that states such (MaterialSpec::meant). Friction,
-/// restitution and what acts beside a law have gaps of their own.
+/// A notice of each material of `experiment` that states such (MaterialSpec::meant), where `engine` says
+/// what it reads at the experiment's settings. Friction, restitution and what acts beside a law have gaps
+/// of their own.
 std::vector<std::string> notices_of_unread_constants(const simulation::Experiment& experiment,
-                                                     const Peer& peer);
+                                                     const simulation::EngineDescription& engine);
 
 }  // namespace hookpoint::reference

@@ -13,7 +13,7 @@ const hello = {
     {name: "default", source: samples + ": the library's own"},
     {name: "recommended", source: samples + ": more iterations where stacks and joints must be stiff; twice is ours"},
     {name: "converged", source: "ours: iterations until joints and contacts are solved to rounding"},
-  ].map(setting => ({...setting, constants: {mNumVelocitySteps: iterations[setting.name][0], mNumPositionSteps: iterations[setting.name][1]}})),
+  ].map(setting => ({...setting, constants: {mNumVelocitySteps: iterations[setting.name][0], mNumPositionSteps: iterations[setting.name][1]}, reads: []})),
   gaps: [
     ...rigid_body_gaps,
     gap("forces of single contacts", "stated", "Jolt reports no forces: what the robot's momentum needs is shared equally among the places where it touches"),

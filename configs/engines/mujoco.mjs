@@ -18,6 +18,7 @@ const options = {
 const constants = name => ({cone: "pyramidal", impratio: 1, tolerance: 1e-8, noslip_iterations: 0, integrator: "Euler", ...options[name],
   ...(name === "file" ? Object.fromEntries(["cone", "impratio", "solref", "solimp"].map(word => [word, "of the Materials"])) : {}),
   ...(name === "matched" ? {impratio: "(c_t + dt k_t)/(c + dt k)", solref: "-d k R, -d/dt; R = 1/(dt (c + dt k))", solimp: "d = A/(A + R)"} : {})});
+const spring_and_damper = ["normal_stiffness", "normal_damping", "tangential_stiffness", "tangential_damping"];
 const hello = {
   name: "mujoco", version: mujoco.mj_versionString(), precision: "double",
   settings: [
@@ -29,7 +30,7 @@ const hello = {
     {name: "elliptic_10", source: advice + "; impratio 10"},
     {name: "discrete", source: "XML reference, option: the integrator of that name"},
     {name: "file", source: "what the Materials state: solref, solimp, cone, impratio"},
-  ].map(setting => ({...setting, constants: constants(setting.name)})),
+  ].map(setting => ({...setting, constants: constants(setting.name), reads: setting.name === "matched" ? spring_and_damper : []})),
   gaps: [
     gap("links without mass", "refused", "give every link a mass"),
     gap("static friction that differs from kinetic", "noticed", "this engine has one coefficient of friction, and it is the kinetic one"),

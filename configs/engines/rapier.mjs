@@ -15,7 +15,7 @@ const hello = {
     {name: "default", source: guide + ": the library's own"},
     {name: "recommended", source: guide + ": more solver iterations where accuracy counts; 20 is ours"},
     {name: "converged", source: "ours: one substep, and sweeps until joints and contacts are solved to rounding"},
-  ].map(setting => ({...setting, constants: constants(setting.name)})),
+  ].map(setting => ({...setting, constants: constants(setting.name), reads: []})),
   gaps: [
     ...rigid_body_gaps,
     gap("prismatic joints", "refused", "choose engine mujoco_3_14"),

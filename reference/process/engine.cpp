@@ -1,12 +1,14 @@
 #include "reference/process/engine.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "reference/experiment_checks.h"
 #include "reference/peer.h"
 #include "reference/process/pool.h"
 #include "reference/process/world.h"
+#include "reference/unread_constants.h"
 
 namespace hookpoint::reference {
 
@@ -24,6 +26,7 @@ std::unique_ptr<simulation::Engine> ProgramEngine::make(
     throw simulation::ExperimentError("engine " + engine.name + ": " + engine.missing);
   check_settings(experiment, engine);
   std::vector<std::string> notices = check_supported(experiment, engine);
+  std::ranges::move(notices_of_unread_constants(experiment, engine), std::back_inserter(notices));
   return make_peer_engine(
       experiment,
       {std::move(engine),

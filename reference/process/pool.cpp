@@ -82,6 +82,7 @@ simulation::EngineDescription ProgramPool::describe_by_hello() {
     description.precision = hello.precision;
     description.constants = hello.constants;
     description.gaps = gaps_and(hello.gaps);
+    description.reads = hello.reads;
     if (has_gap(description, feature::two_frictions))
       description.one_friction = description.settings;
     description.found = true;

@@ -11,6 +11,7 @@
 #include <thread>
 #include <utility>
 
+#include "simulation/experiment/material_fields.h"
 #include "text/display.h"
 #include "text/json.h"
 
@@ -48,6 +49,20 @@ EngineGap::Handling handling_of(const std::string& name) {
                      "` and not refused, noticed or stated");
 }
 
+/// Names of constants of a Material. Throws ProgramError.
+std::vector<std::string> constants_of(const JsonValue& names) {
+  std::vector<std::string> constants;
+  for (const JsonValue& item : names.items()) {
+    const std::string name = item.is_leaf() ? item.text() : "";
+    const auto is_named = [&](const auto& field) { return field.name == name; };
+    if (std::ranges::none_of(simulation::material_fields(), is_named))
+      throw ProgramError("its hello reads `" + one_line(name) +
+                         "`, which is no constant of a Material");
+    constants.push_back(name);
+  }
+  return constants;
+}
+
 /// Throws ProgramError.
 Hello hello_of(const JsonValue& json, int protocol) {
   if (member_text(json, "type") != "hello")
@@ -72,6 +87,8 @@ Hello hello_of(const JsonValue& json, int protocol) {
       const std::string name = one_line(member_text(setting, "name"));
       const std::string source = one_line(member_text(setting, "source"));
       hello.settings.push_back(name);
+      if (const JsonValue* reads = setting.member("reads"))
+        hello.reads[name] = constants_of(*reads);
       const JsonValue* constants = setting.member("constants");
       if (constants == nullptr || constants->members().empty())
         hello.constants.push_back({name, "all", "the program's own", source});

@@ -1,6 +1,7 @@
 // A running program that is an engine, and the protocol's frames (docs/engine_protocol.md).
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -27,6 +28,7 @@ struct Hello {
   std::vector<std::string> settings;
   std::vector<simulation::SettingConstant> constants;
   std::vector<simulation::EngineGap> gaps;
+  std::map<std::string, std::vector<std::string>> reads{};  ///< EngineDescription::reads
 };
 
 class Program {

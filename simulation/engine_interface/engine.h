@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -289,6 +290,9 @@ struct EngineDescription {
   std::vector<SettingConstant> constants{};
   std::string missing{};  ///< of one that is not found: why, and what to do
   std::string program{};  ///< hash of the files of an engine that is a program, else empty
+  /// Of a setting, the constants of a Material beside friction that it reads; without an entry the
+  /// engine does not say.
+  std::map<std::string, std::vector<std::string>> reads{};
 };
 
 /// Builds a world from an experiment. Throws ExperimentError when the engine cannot run it, saying

@@ -3,6 +3,7 @@
 // ctest: long, released
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "apps/shared/engine_check.h"
 #include "output/files/child.h"
 #include "reference/process/engine.h"
+#include "simulation/experiment/material_fields.h"
 #include "tests/support/folders.h"
 #include "tests/support/reference_robots.h"
 #include "tests/support/text.h"
@@ -74,6 +76,47 @@ TEST_F(ProgramEngineTest, MujocoCreepsAsItDoesByItself) {
   }
   const auto still = engine.make(sloped_block(15. * degree, 0., 0.8, 1e-3, "noslip"));
   EXPECT_LT(creep_speed(*still, slope_axes(15. * degree, 0.).downhill, 1e-3, 2., 3.), 1e-8);
+}
+
+/// Where a block on 15 deg that is thrown comes to, step by step.
+std::vector<double> thrown(const reference::ProgramEngine& engine, const std::string& settings,
+                           double contact::MaterialConstants<double>::*constant, double factor) {
+  simulation::Experiment experiment = sloped_block(15. * degree, 0.2, 0.5, 1e-3, settings);
+  experiment.robots[0].angular_velocity = {0.3, -0.5, 0.2};
+  experiment.robots[0].velocity = {0.02, 0.01, 0.};
+  experiment.materials[0].constants.*constant *= factor;
+  const auto world = engine.make(experiment);
+  std::vector<double> values;
+  for (int i = 0; i < 200 && world->step().ok(); ++i) {
+    const auto& body = world->state().bodies[0];
+    values.insert(values.end(), {body.position.x, body.position.y, body.position.z});
+  }
+  return values;
+}
+
+// What a notice names as unread changes nothing, and what it does not name changes the motion.
+TEST_F(ProgramEngineTest, SaysWhichConstantsItDoesNotRead) {
+  using Constants = contact::MaterialConstants<double>;
+  for (const auto& [file, settings] :
+       {std::pair{"mujoco.hook", "default"}, std::pair{"mujoco.hook", "matched"},
+        std::pair{"jolt.hook", "default"}, std::pair{"rapier.hook", "default"}}) {
+    const reference::ProgramEngine engine(definition(file));
+    for (const auto constant : {&Constants::normal_stiffness, &Constants::normal_damping,
+                                &Constants::tangential_stiffness, &Constants::exponent}) {
+      simulation::Experiment experiment = sloped_block(15. * degree, 0.2, 0.5, 1e-3, settings);
+      experiment.materials[0].name = "clay";
+      experiment.materials[0].meant = {constant};
+      const auto notices = engine.make(experiment)->state().notices;
+      const std::string told = "`" + std::string(simulation::field_of(constant).name) +
+                               "` of material 'clay' is not read at `settings = " + settings + "`";
+      const bool said = std::ranges::any_of(notices, [&](const std::string& notice) {
+        return notice.find(told) != std::string::npos;
+      });
+      const bool reads =
+          thrown(engine, settings, constant, 0.7) != thrown(engine, settings, constant, 1.);
+      EXPECT_NE(said, reads) << file << " " << told;
+    }
+  }
 }
 
 TEST_F(ProgramEngineTest, MujocoIsSetUpAsTheLinkedOne) {
