@@ -31,6 +31,9 @@ const char* advice(AdvanceStatus status) {
     case AdvanceStatus::inside_body:
       return "two bodies start inside each other: place them apart, or let them not touch "
              "(contact = false on a Shape)";
+    case AdvanceStatus::came_inside:
+      return "it came inside what it touches without an impact: make deltat smaller, or choose "
+             "contact = impulse_reversal or a force law";
     case AdvanceStatus::too_many_impacts:
       return "impacts follow one another without end: raise rebound_speed, lower restitution, "
              "shorten deltat, or give the robot fewer boundary_points";

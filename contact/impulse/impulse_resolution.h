@@ -36,6 +36,7 @@ enum class AdvanceStatus {
   not_finite,
   inside_ground,
   inside_body,
+  came_inside,  ///< later than at the start
   too_many_impacts,
   unsolved_collision
 };

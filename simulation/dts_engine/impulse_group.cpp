@@ -22,6 +22,8 @@ using contact::AdvanceStatus;
 constexpr double deepest_start = 1e-9;  // what rounding of a pose between steps may cost [m]
 // Share of the robot's speeds that is no approach: what rounding leaves of a point that was
 // stopped, or that nothing can move along its normal.
+/// What a place that moves along a rim may have sunk by since, flight by flight [m].
+constexpr double deepest_in_run = 1e-6;
 constexpr double speed_rounding = 1e-11;
 constexpr int interpolations = 6;  // trials by interpolation before halving
 constexpr int most_trials = 60;
@@ -233,8 +235,9 @@ AdvanceStatus ImpulseGroup::fly_above(const contact::GroundQuery& ground, double
 
 // Whether something is deeper inside than rounding leaves it.
 AdvanceStatus ImpulseGroup::inside() const {
+  const double deepest = in_run() ? deepest_in_run : deepest_start;
   for (const ImpulsePlace& place : places_->places()) {
-    if (place.ground.gap < -deepest_start - places_->margin())
+    if (place.ground.gap < -deepest - places_->margin())
       return place.surface < 0 ? AdvanceStatus::inside_body : AdvanceStatus::inside_ground;
   }
   return AdvanceStatus::ok;

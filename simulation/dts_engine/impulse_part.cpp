@@ -50,11 +50,16 @@ StepStatus ImpulsePart::step(double time) {
     if (place.outside) look_for_edge(robots_.first, point);
     return place;
   };
+  in_run_ = time > 0.;
   const contact::ImpulseTally tally = advance(ground);
   if (tally.status != contact::AdvanceStatus::ok) {
     const bool lost = tally.status == contact::AdvanceStatus::not_finite;
+    const bool inside = tally.status == contact::AdvanceStatus::inside_ground ||
+                        tally.status == contact::AdvanceStatus::inside_body;
+    const contact::AdvanceStatus status =
+        inside && in_run_ ? contact::AdvanceStatus::came_inside : tally.status;
     return {lost ? StepStatus::Kind::not_finite : StepStatus::Kind::solver_failed, time,
-            failed_robot() + ".base", contact::advice(tally.status)};
+            failed_robot() + ".base", contact::advice(status)};
   }
   look_for_order(tally.order_matters);
   noticed_before_ = !notice_.empty();

@@ -46,6 +46,9 @@ class ImpulsePart : public RobotPart {
   /// Says once that the order of points matters to the result, and why.
   void look_for_order(contact::OrderCause cause);
 
+  /// Whether the present step is not the first.
+  bool in_run() const { return in_run_; }
+
   std::span<const RobotSpec> specs() const {
     return std::span(experiment_.robots).subspan(robots_.first, robots_.count);
   }
@@ -59,6 +62,7 @@ class ImpulsePart : public RobotPart {
   const contact::Terrain* terrain_;
   std::uint64_t impacts_before_ = 0;  ///< the present step, to undo it
   bool noticed_before_ = false;       ///< likewise
+  bool in_run_ = false;               ///< the present step is not the first
   std::string notice_, left_;         ///< left_: of the present step
 };
 

@@ -95,5 +95,22 @@ TEST(ImpulseOnShapes, ABeltTakesABlockAlong) {
   EXPECT_NEAR(run["w.block.velocity.x"], 0.5, 2e-3);
 }
 
+// The place where a tumbling disc touches runs along its rim, from impact to impact: the run does not stop
+// at what its flights sink by meanwhile. Impacts without restitution take energy, and none brings any.
+TEST(ImpulseOnShapes, ATumblingDiscLosesEnergyAndDoesNotStop) {
+  Running run(
+      "World w { gravity = 9.81; deltat = 1 ms; contact = impulse; Material s { kinetic_friction = 0.5; "
+      "restitution = 0; rebound_speed = 1 mm/s; } Terrain.Flat g { material = s; } Robot d { Base.mobile { "
+      "location = 0, 0, 0.3; orientation = 1.9, 0.3, 0; angular_velocity = 3, 1, 2; Shape.Disc { radius = "
+      "0.09; mass = 1; } } } }");
+  const auto energy = [&] { return run["d.kinetic_energy"] + 9.81 * run["d.position.z"]; };
+  const double start = energy();
+  for (int i = 0; i < 400; ++i) {
+    run.step();
+    EXPECT_LT(energy(), start + 1e-6) << i;
+    EXPECT_GT(run["d.position.z"], -1e-6) << i;
+  }
+}
+
 }  // namespace
 }  // namespace hookpoint
