@@ -160,6 +160,7 @@ std::optional<Experiment> load_experiment(const language::Object& root,
     if (diagnostics.error_count() == errors_before)
       complete_mujoco_materials(is_automatic(*world), loading);
     settle_on_terrain(laid, loading);
+    if (diagnostics.error_count() == errors_before) warn_of_start_depths(loading);
   }
   if (diagnostics.error_count() == errors_before && is_automatic(*world))
     choose_deltat(root, loading);

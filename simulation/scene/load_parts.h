@@ -183,6 +183,8 @@ std::vector<bool> lay_on_terrain(Loading& loading);
 void complete_mujoco_materials(bool automatic, Loading& loading);
 /// Lets those that were laid settle, and checks that every robot starts above its terrain.
 void settle_on_terrain(const std::vector<bool>& laid, Loading& loading);
+/// Of robots that start deep inside something, and those that are too heavy for their ground.
+void warn_of_start_depths(Loading& loading);
 /// What cannot run together: laws, integrators, engines, robots.
 void check_combinations(const language::Object& world, Loading& loading);
 

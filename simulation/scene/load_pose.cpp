@@ -7,6 +7,7 @@
 #include "contact/force_law.h"
 #include "contact/terrain/terrain.h"
 #include "simulation/analysis/resting_state.h"
+#include "simulation/analysis/start_depth.h"
 #include "simulation/experiment/contact_materials.h"
 #include "simulation/experiment/kinematics.h"
 #include "simulation/experiment/names.h"
@@ -200,6 +201,15 @@ void check_inside(const language::Object& base, const contact::Terrain& ground,
 }
 
 }  // namespace
+
+void warn_of_start_depths(Loading& loading) {
+  for (const StartDepth& start : start_depths(loading.experiment)) {
+    const language::Object& base = *loading.bases[start.robot];
+    const char* field =
+        base.given(base_field::rest_on) ? base_field::rest_on : base_field::location;
+    loading.diagnostics.warning(place_of(base, field), start.message);
+  }
+}
 
 std::vector<bool> lay_on_terrain(Loading& loading) {
   std::vector<bool> laid(loading.experiment.robots.size());
