@@ -40,17 +40,27 @@ std::set<int> materials_in_use(const TerrainSpec& terrain) {
   return used;
 }
 
-/// The law of our engine on its ground; null where neither is.
-const contact::LawDescription* chosen_law(const Loading& loading) {
+/// Whether anything can touch: on a terrain, on an obstacle, or as shapes of robots.
+bool has_contact(const language::Object& world, const Loading& loading) {
+  if (loading.experiment.terrain || !world.children_of("Obstacle.").empty()) return true;
+  if (loading.experiment.touch != "shapes") return false;
+  const auto robots = world.children_of("Robot");
+  return robots.size() > 1 || std::ranges::any_of(robots, [](const language::Object* robot) {
+           return robot->boolean("self_contact");
+         });
+}
+
+/// The law of our engine; null of another, and where nothing can touch.
+const contact::LawDescription* chosen_law(const language::Object& world, const Loading& loading) {
   const Experiment& experiment = loading.experiment;
-  if (experiment.engine != "dts" || !experiment.terrain) return nullptr;
+  if (experiment.engine != "dts" || !has_contact(world, loading)) return nullptr;
   return contact::find_law(experiment.contact);
 }
 
-/// Materials that shapes, points and bodies name, and those of Pairs.
+/// Materials that shapes, points, bodies and obstacles name, and those of Pairs.
 std::set<int> foot_materials_in_use(const language::Object& world, Loading& loading) {
   std::set<int> used;
-  for (const char* type : {"Shape.", "ContactPoint", "Link", "Base."})
+  for (const char* type : {"Shape.", "ContactPoint", "Link", "Base.", "Obstacle."})
     for (const language::Object* object : collect_all(world, type))
       used.insert(foot_material(*object, no_material, loading));
   for (const PairSpec& pair : loading.experiment.pairs) used.insert(pair.material);
@@ -66,6 +76,22 @@ std::vector<const language::Object*> written(const std::set<int>& materials,
     for (const auto& [material, index] : loading.materials)
       if (index == used) found.push_back(material);
   return found;
+}
+
+/// Materials of the terrain and of obstacles; where there are neither, those of feet. What states none
+/// has the terrain's, without a terrain the World's first (ContactMaterials::between); no_material: of
+/// neither.
+std::set<int> ground_materials(const language::Object& world, Loading& loading) {
+  const Experiment& experiment = loading.experiment;
+  std::set<int> used;
+  if (experiment.terrain) used = materials_in_use(*experiment.terrain);
+  const int unstated = experiment.terrain             ? experiment.terrain->material
+                       : experiment.materials.empty() ? no_material
+                                                      : 0;
+  for (const language::Object* obstacle : world.children_of("Obstacle."))
+    used.insert(foot_material(*obstacle, unstated, loading));
+  if (used.empty()) used = foot_materials_in_use(world, loading);
+  return used;
 }
 
 void check_unstated(const contact::LawDescription& law, const language::Object& world,
@@ -170,18 +196,19 @@ void check_unread(const contact::LawDescription& law, const language::Object& ma
 }  // namespace
 
 void warn_of_unstated_constants(const language::Object& world, Loading& loading) {
-  const contact::LawDescription* law = chosen_law(loading);
+  const contact::LawDescription* law = chosen_law(world, loading);
   if (law == nullptr) return;
-  for (const language::Object* material :
-       written(materials_in_use(*loading.experiment.terrain), loading))
+  const std::set<int> used = ground_materials(world, loading);
+  for (const language::Object* material : written(used, loading))
     check_unstated(*law, world, material, loading);
+  if (used.contains(no_material)) check_unstated(*law, world, nullptr, loading);
 }
 
 void find_unread_constants(const language::Object& world, Loading& loading) {
-  if (!loading.experiment.terrain) return;
-  std::set<int> used = materials_in_use(*loading.experiment.terrain);
-  used.merge(foot_materials_in_use(world, loading));
-  const contact::LawDescription* law = chosen_law(loading);
+  if (!has_contact(world, loading)) return;
+  std::set<int> used = foot_materials_in_use(world, loading);
+  used.merge(ground_materials(world, loading));
+  const contact::LawDescription* law = chosen_law(world, loading);
   for (const language::Object* material : written(used, loading)) {
     if (material == nullptr) continue;
     if (law != nullptr) check_unread(*law, *material, loading);

@@ -48,6 +48,83 @@ TEST(Warnings, TellOfALawWhoseOwnConstantsNoMaterialStates) {
             std::string::npos);
 }
 
+// A World without a Terrain has its contacts on obstacles and between robots.
+TEST(Warnings, TellOfConstantsOfObstaclesAndOfRobotsAlone) {
+  const std::string ball = "Shape.Sphere { radius = 0.05; mass = 1; } } } ";
+  const auto on_box = [&](const std::string& law, const std::string& of_box,
+                          const std::string& of_ball) {
+    return load_text(
+               "World w { contact = " + law +
+               "; Material s { restitution = 0.7; rolling_resistance = 2 mm; } Material t { } "
+               "Obstacle.Box o { dimensions = 2, 2, 0.2; location = 0, 0, -0.1; " +
+               of_box + " } Robot b { Base.mobile { location = 0, 0, 0.5; " + of_ball + ball + "}")
+        .diagnostics;
+  };
+  const auto collide = [&](const std::string& law) {
+    return load_text("World w { contact = " + law +
+                     "; Material s { restitution = 0.7; } Robot a { Base.mobile { material = s; " +
+                     ball + "Robot b { Base.mobile { location = 1, 0, 0; material = s; " + ball +
+                     "}")
+        .diagnostics;
+  };
+  // Where neither side states a Material the World's first holds.
+  for (const std::string& said :
+       {on_box("hookpoint", "material = s;", ""), on_box("hookpoint", "", "material = s;"),
+        on_box("hookpoint", "", ""), collide("hookpoint")})
+    EXPECT_NE(said.find("`restitution` is not read by contact law hookpoint"), std::string::npos)
+        << said;
+  for (const std::string& said :
+       {on_box("hunt_crossley", "material = s;", ""), on_box("impulse", "material = t;", ""),
+        on_box("hunt_crossley", "", ""), collide("hunt_crossley")})
+    EXPECT_NE(said.find("has constants of its own"), std::string::npos) << said;
+  EXPECT_NE(on_box("impulse", "material = s;", "").find("`rolling_resistance` is not read"),
+            std::string::npos);
+  EXPECT_EQ(collide("impulse"), "");
+  // Nothing can touch a robot that is alone.
+  EXPECT_EQ(
+      load_text("World w { Material s { restitution = 0.7; } Robot b { Base.mobile { material = "
+                "s; " +
+                ball + "}")
+          .diagnostics,
+      "");
+}
+
+// Four corners of a box 0.1 m deep in ground of k = 50 kN/m hold 4 k d^2/2 = 1000 J, and m g = 9.81 N.
+TEST(Warnings, TellOfABodyThatStartsDeepInside) {
+  const auto box = [](const std::string& height, const std::string& ground) {
+    return load_text("World w { gravity = 9.81; Material s { normal_stiffness = 50 kN/m; } " +
+                     ground + " Robot b { Base.mobile { location = 0, 0, " + height +
+                     "; Shape.Box { dimensions = 0.2, 0.2, 0.2; mass = 1; } } } }")
+        .diagnostics;
+  };
+  const std::string flat = "Terrain.Flat g { material = s; }";
+  const std::string block =
+      "Obstacle.Box g { dimensions = 4, 4, 2; location = 0, 0, -1; material = s; }";
+  for (const std::string& ground : {flat, block}) {
+    const std::string said = box("0", ground);
+    for (const char* part : {"`b` starts 0.1 m deep in", "1e+03 J", "102 m high", "location"})
+      EXPECT_NE(said.find(part), std::string::npos) << part << said;
+    // At its static depth, m g/(4 k) = 0.049 mm, and ten times as deep.
+    for (const char* height : {"0.1", "0.09995", "0.0996"})
+      EXPECT_EQ(box(height, ground), "") << height;
+  }
+}
+
+// 1e4 kg on four corners of 100 kN/m: m g/(4 k) = 0.245 m.
+TEST(Warnings, TellOfGroundThatIsTooSoftForABody) {
+  const auto box = [](const std::string& mass) {
+    return load_text(
+               "World w { gravity = 9.81; Terrain.Flat g { } Robot b { Base.mobile { rest_on = g; "
+               "Shape.Box { dimensions = 1, 1, 0.4; mass = " +
+               mass + "; } } } }")
+        .diagnostics;
+  };
+  const std::string said = box("1e4 kg");
+  for (const char* part : {"`b` rests 0.245 m deep in the ground", "normal_stiffness"})
+    EXPECT_NE(said.find(part), std::string::npos) << part << said;
+  EXPECT_EQ(box("1e3 kg"), "");
+}
+
 TEST(Warnings, TellOfATableThatLiesOutsideOfTheRun) {
   const testing::TemporaryFile file("late.csv", "time [s],F [N]\n100,1\n101,2\n");
   const auto said = [&](const std::string& fields) {
