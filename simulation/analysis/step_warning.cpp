@@ -17,8 +17,9 @@ std::string what_is_unstable(const Experiment& experiment, const StabilityBound&
 
 std::string what_to_do(const StabilityBound& bound) {
   if (std::string controllers = controller_advice(bound); !controllers.empty()) return controllers;
-  const char* softer =
-      bound.contacts == StabilityBound::Contacts::none ? "" : " or the ground softer";
+  const char* softer = bound.contacts == StabilityBound::Contacts::none
+                           ? " or springs and stops softer"
+                           : " or the ground softer";
   if (bound.step > 0.)
     return fmt::format("make the step smaller (deltat = auto){}, or choose another integrator",
                        softer);

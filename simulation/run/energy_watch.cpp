@@ -8,6 +8,7 @@
 #include <span>
 #include <variant>
 
+#include "integrators/stepper.h"
 #include "simulation/engine_interface/robot_sums.h"
 #include "simulation/experiment/joint_forces.h"
 #include "simulation/experiment/robot_tree.h"
@@ -44,6 +45,10 @@ EnergyWatch::EnergyWatch(const Experiment& experiment, World& world, std::int64_
   measured_ = world.energy_balance().has_begun();
   if (steps < fewest_steps || experiment.robots.empty() || !(ground_known_ || measured_)) return;
   world.energy_balance().begin_drives();
+  const integrators::StepperDescription* const stepper =
+      integrators::find_stepper(experiment.integrator);
+  new_velocities_ =
+      experiment.engine == "dts" && stepper != nullptr && stepper->moves_with_new_velocity;
   stride_ = std::max<std::int64_t>(1, steps / (windows * samples_a_window));
   const auto most = static_cast<std::size_t>(steps / stride_ + 2);
   samples_.reserve(most);
@@ -85,8 +90,43 @@ void EnergyWatch::sample() {
   }
   for (const double work : state.surface_works) now.energy -= work;
   now.size += std::abs(now.energy);
+  now.plain = now.energy;
   now.jumped = jumps(samples_.empty() ? 0. : now.time - samples_.back().time);
-  samples_.push_back(now);
+  if (!new_velocities_) {
+    samples_.push_back(now);
+    return;
+  }
+  bodies_ = state.bodies;
+  joints_ = state.joints;
+  unpaired_ = {now, state.step, kinetic_energy(bodies_, joints_)};
+}
+
+// v_n . M v_{n+1} = T_n + T_{n+1} less T of their difference.
+void EnergyWatch::pair() {
+  const WorldState& state = world_.state();
+  Unpaired before = *unpaired_;
+  unpaired_.reset();
+  if (state.step != before.step + 1) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    bodies_[i].velocity = state.bodies[i].velocity - bodies_[i].velocity;
+    bodies_[i].angular_velocity = state.bodies[i].angular_velocity - bodies_[i].angular_velocity;
+  }
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    joints_[i].rate = state.joints[i].rate - joints_[i].rate;
+  before.sample.energy += 0.5 * (kinetic_energy(state.bodies, state.joints) -
+                                 before.kinetic_energy - kinetic_energy(bodies_, joints_));
+  samples_.push_back(before.sample);
+}
+
+double EnergyWatch::kinetic_energy(std::span<const BodyState> bodies,
+                                   std::span<const JointState> joints) const {
+  double sum = 0.;
+  for (const RobotSpec& robot : experiment_.robots) {
+    sum += robot_sums(robot, {}, bodies, joints).kinetic_energy;
+    bodies = bodies.subspan(body_count(robot));
+    joints = joints.subspan(joint_count(robot));
+  }
+  return sum;
 }
 
 bool EnergyWatch::jumps(double interval) {
@@ -112,6 +152,11 @@ bool EnergyWatch::jumps(double interval) {
   return false;
 }
 
+// The last takes what the division leaves.
+std::size_t EnergyWatch::end_of(std::size_t window) const {
+  return window + 1 == windows ? samples_.size() : (window + 1) * (samples_.size() / windows);
+}
+
 /// From the least of the windows to the greatest after it; `window(first, last)` is the account over
 /// some samples.
 template <class Window>
@@ -119,23 +164,49 @@ EnergyWatch::Rise EnergyWatch::greatest_rise(const Window& window) const {
   const std::size_t count = samples_.size() / windows;
   if (count == 0) return {};
   std::array<double, windows> account{};
-  for (std::size_t i = 0; i < windows; ++i) account[i] = window(i * count, (i + 1) * count);
+  for (std::size_t i = 0; i < windows; ++i) account[i] = window(i * count, end_of(i));
   const auto least = std::ranges::min_element(account);
   const auto most = std::ranges::max_element(least, account.end());
   const auto begin = [&](const auto& at) {
     return static_cast<std::size_t>(at - account.begin()) * count;
   };
-  const auto end = [&](const auto& at) { return samples_[begin(at) + count - 1].time; };
+  const auto end = [&](const auto& at) {
+    return samples_[end_of(static_cast<std::size_t>(at - account.begin())) - 1].time;
+  };
   return {*most - *least, end(least), end(most), samples_[begin(least)].time};
 }
 
 // Greatest values: between them the energy of a vibration wavers.
 EnergyWatch::Rise EnergyWatch::rise_of_all() const {
   if (!ground_known_) return {};
-  return greatest_rise([&](std::size_t first, std::size_t last) {
+  const Rise rise = greatest_rise([&](std::size_t first, std::size_t last) {
     const auto row = std::span(samples_).subspan(first, last - first);
     return std::ranges::max_element(row, {}, &Sample::energy)->energy;
   });
+  const Rise lasting = lasting_rise();
+  return lasting.energy > rise.energy ? lasting : rise;
+}
+
+EnergyWatch::Rise EnergyWatch::lasting_rise() const {
+  const std::size_t count = samples_.size() / windows;
+  Rise rise;
+  if (count == 0) return rise;
+  const auto window = [&](std::size_t i) {
+    return std::span(samples_).subspan(i * count, end_of(i) - i * count);
+  };
+  std::size_t lowest = 0;
+  double low = HUGE_VAL, size = 0.;
+  for (std::size_t i = 0; i < windows; ++i) {
+    const auto [least, most] = std::ranges::minmax_element(window(i), {}, &Sample::plain);
+    if (least->plain - low > wavering * size && most->plain - low > rise.energy)
+      rise = {most->plain - low, window(lowest).back().time, window(i).back().time,
+              window(lowest).front().time};
+    if (most->plain >= low) continue;
+    low = most->plain;
+    lowest = i;
+    size = std::ranges::max_element(window(i), {}, &Sample::size)->size;
+  }
+  return rise;
 }
 
 // Means: while something hits the ground the numerical energy wavers, and comes back.
@@ -190,6 +261,7 @@ std::string EnergyWatch::finding() const {
       "{}, by {}{:.3g} J ({:.2g} % of what takes part in its motion) between {:.4g} and "
       "{:.4g} s",
       energy_finding, whose, rise.energy, 100. * rise.energy / moving, rise.from, rise.to);
+  const bool on_ground = experiment_.terrain || !experiment_.obstacles.empty();
   const char* const mend =
       experiment_.touch == "points"
           ? "write touch = shapes, or give the ground finer steps and less steep tiles"
@@ -200,9 +272,9 @@ std::string EnergyWatch::finding() const {
   const bool edges =
       all && experiment_.terrain && std::holds_alternative<GridSpec>(experiment_.terrain->surface);
   return fmt::format(
-      "{}: deltat {:.4g} s is too large for how it moves; halve it, soften the "
-      "ground, or choose another integrator{}{}",
-      found, experiment_.deltat,
+      "{}: deltat {:.4g} s is too large for how it moves; halve it, soften {}, or choose another "
+      "integrator{}{}",
+      found, experiment_.deltat, on_ground ? "the ground" : "springs and stops",
       edges ? "; if that changes nothing, contacts crossed edges of the ground: " : "",
       edges ? mend : "");
 }

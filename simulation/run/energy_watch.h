@@ -8,6 +8,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,7 +29,9 @@ class EnergyWatch {
 
   /// After each step; looks at one in many. O(bodies + boundary points) where it looks.
   void observe() {
-    if (stride_ > 0 && world_.state().step % stride_ == 0) sample();
+    if (stride_ == 0) return;
+    if (unpaired_) pair();
+    if (world_.state().step % stride_ == 0) sample();
   }
 
   /// "its energy rose by more than was put in ...", or "" where it did not. Compares twentieths of the
@@ -39,6 +43,7 @@ class EnergyWatch {
     double time = 0.;     ///< [s]
     double size = 0.;     ///< of the energies that it is made of [J]
     double energy = 0.;   ///< that cannot grow [J]
+    double plain = 0.;    ///< the same with T of the new velocities [J]
     bool jumped = false;  ///< as `jumps` says
   };
   /// The deepest contact of a body.
@@ -50,13 +55,30 @@ class EnergyWatch {
   struct Rise {
     double energy = 0., from = 0., to = 0., begin = 0.;
   };
+  /// A sample of an integrator whose positions move with new velocities: those of the sample are then
+  /// of half a step before its positions, and its energy is complete a step later.
+  struct Unpaired {
+    Sample sample;
+    std::int64_t step = 0;
+    double kinetic_energy = 0.;  ///< [J]
+  };
   void sample();
+  /// Completes the sample of the step before: takes v_n . M v_{n+1}/2 for its kinetic energy, with which
+  /// a step of semi-implicit Euler keeps the energy of linear springs exactly.
+  void pair();
+  double kinetic_energy(std::span<const BodyState> bodies,
+                        std::span<const JointState> joints) const;
   /// Whether some body is deeper in the ground than it can have moved since the last sample,
   /// `interval` [s] ago: the ground under it has jumped.
   bool jumps(double interval);
+  /// The sample after the last one of a window.
+  std::size_t end_of(std::size_t window) const;
   template <class Window>
   Rise greatest_rise(const Window& window) const;
   Rise rise_of_all() const;
+  /// The rise of plain energy to a window whose least is above the greatest of an earlier one by more than
+  /// a vibration wavers: what a step that is not stable gains, which v_n . M v_{n+1}/2 hides.
+  Rise lasting_rise() const;
   Rise rise_of(std::size_t robot) const;
   /// What takes part in the motion of a robot, and what drives have put in [J].
   double part_of(std::size_t robot) const;
@@ -73,6 +95,10 @@ class EnergyWatch {
   std::vector<double> driven_before_;  ///< work of drives on each robot when the watch began [J]
   std::vector<MovingEnergy> moving_;   ///< of each robot
   std::vector<Sample> samples_;
+  bool new_velocities_ = false;  ///< positions move with new velocities
+  std::optional<Unpaired> unpaired_;
+  std::vector<BodyState> bodies_;                ///< of the unpaired sample
+  std::vector<JointState> joints_;               ///< likewise
   std::vector<std::vector<double>> numerical_;   ///< energies of each robot, one a sample [J]
   std::vector<Touch> touches_, touches_before_;  ///< of each body
   std::vector<ContactView> contacts_;

@@ -349,6 +349,39 @@ TEST(EnergyWatch, LeavesARestingBouncingOrDrivenWorldAlone) {
     EXPECT_EQ(finding(text, 5000), "") << text;
 }
 
+// A ball that bounces on springs without dampers, and an arm that meets a stop: in the contact T + V of a
+// step that moves with its new velocities wavers by half of omega dt = 0.22, and comes back.
+TEST(EnergyWatch, LeavesAContactWithoutDampersAlone) {
+  EXPECT_EQ(
+      finding(
+          "World w { gravity = 9.81; deltat = 1 ms; Material s { normal_stiffness = 50 kN/m; "
+          "normal_damping = 0; static_friction = 0; } Terrain.Flat g { material = s; } Robot b "
+          "{ Base.mobile { location = 0, 0, 0.6; Shape.Sphere { radius = 0.1; mass = 1; } } } }",
+          10000),
+      "");
+  for (const int steps : {200, 260, 400})
+    EXPECT_EQ(
+        finding(
+            "World w { gravity = 0; deltat = 1 ms; Robot m { Base.fixed; Chain a { Link c { mass "
+            "= 1; inertia = 0.02, 0.02, 0.02, 0, 0, 0; rate = 10; upper_limit = 0.5; "
+            "limit_stiffness = 1000; limit_damping = 0; } } } }",
+            steps),
+        "")
+        << steps;
+}
+
+// Above its largest stable step, 2 sqrt(m/k) = 0.316 ms, the spring of a Loop gains energy: there is no
+// ground to be softened.
+TEST(EnergyWatch, NamesNoGroundWhereThereIsNone) {
+  const std::string found = finding(
+      "World w { gravity = 0; deltat = 0.32 ms; Robot m { Base.fixed; Chain b { Link slide { joint "
+      "= prismatic; angle = 1e-9; mass = 2; } } Loop sp { a = b.slide; b = base; stiffness = 8e7; "
+      "} } }",
+      400);
+  EXPECT_TRUE(found.starts_with(simulation::energy_finding)) << found;
+  EXPECT_EQ(found.find("ground"), std::string::npos) << found;
+}
+
 // Sensors, sums, formulas and controllers that drive nothing do not silence it, wherever they stand.
 TEST(EnergyWatch, IsNotSilencedByWhatOnlyListens) {
   const auto spinning = [](const std::string& inside, const std::string& outside) {
