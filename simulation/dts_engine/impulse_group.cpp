@@ -20,10 +20,10 @@ namespace {
 using contact::AdvanceStatus;
 
 constexpr double deepest_start = 1e-9;  // what rounding of a pose between steps may cost [m]
-// Share of the robot's speeds that is no approach: what rounding leaves of a point that was
-// stopped, or that nothing can move along its normal.
 /// What a place that moves along a rim may have sunk by since, flight by flight [m].
 constexpr double deepest_in_run = 1e-6;
+// Share of the robot's speeds that is no approach: what rounding leaves of a point that was
+// stopped, or that nothing can move along its normal.
 constexpr double speed_rounding = 1e-11;
 constexpr int interpolations = 6;  // trials by interpolation before halving
 constexpr int most_trials = 60;
