@@ -63,14 +63,10 @@ class RestSearch {
     const double mass = robot_mass(robot);
     center_of_mass_ = (1. / mass) * moment;
     center_ = robot.location + rotate(robot.orientation, center_of_mass_);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      for (std::size_t k = 0; k < bodies[i]->boundary_points.size(); ++k) {
-        const Vector3d p_BP =
-            X_BL[i].position + rotate(X_BL[i].orientation, bodies[i]->boundary_points[k]);
-        arms_.push_back(rotate(robot.orientation, p_BP - center_of_mass_));
-        radii_.push_back(bodies[i]->boundary_radius(k));
-        foot_materials_.push_back(bodies[i]->boundary_material(k));
-      }
+    for (const RobotPoint& point : points_in_base(robot)) {
+      arms_.push_back(rotate(robot.orientation, point.p_BP - center_of_mass_));
+      radii_.push_back(point.radius);
+      foot_materials_.push_back(point.material);
     }
     for (const Vector3d& arm : arms_) size_ = std::max(size_, norm(arm));
     if (size_ == 0.) size_ = 1.;

@@ -47,17 +47,10 @@ struct Overlap {
 
 /// Largest side of the box about all boundary points, in base axes [m].
 double size_of(const RobotSpec& robot) {
-  const std::vector<Pose> poses = body_poses(robot);
-  const std::vector<const BodySpec*> bodies = bodies_of(robot);
   Vector3d low{HUGE_VAL, HUGE_VAL, HUGE_VAL}, high = -low;
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    for (std::size_t k = 0; k < bodies[i]->boundary_points.size(); ++k) {
-      const Vector3d p =
-          poses[i].position + rotate(poses[i].orientation, bodies[i]->boundary_points[k]);
-      const double r = bodies[i]->boundary_radius(k);
-      low = {std::min(low.x, p.x - r), std::min(low.y, p.y - r), std::min(low.z, p.z - r)};
-      high = {std::max(high.x, p.x + r), std::max(high.y, p.y + r), std::max(high.z, p.z + r)};
-    }
+  for (const auto& [p, body, r, material] : points_in_base(robot)) {
+    low = {std::min(low.x, p.x - r), std::min(low.y, p.y - r), std::min(low.z, p.z - r)};
+    high = {std::max(high.x, p.x + r), std::max(high.y, p.y + r), std::max(high.z, p.z + r)};
   }
   return std::max({0., high.x - low.x, high.y - low.y, high.z - low.z});
 }
@@ -65,18 +58,13 @@ double size_of(const RobotSpec& robot) {
 Overlap overlap_with(const contact::Terrain& ground, const Experiment& experiment,
                      const RobotSpec& robot, const contact::LawDescription& law) {
   Overlap overlap;
-  const std::vector<Pose> poses = body_poses(robot);
-  const std::vector<const BodySpec*> bodies = bodies_of(robot);
-  for (std::size_t i = robot.mobile ? 0 : 1; i < bodies.size(); ++i) {
-    for (std::size_t k = 0; k < bodies[i]->boundary_points.size(); ++k) {
-      const Vector3d p_BP =
-          poses[i].position + rotate(poses[i].orientation, bodies[i]->boundary_points[k]);
-      const contact::TilePoint tile =
-          ground.query(robot.location + rotate(robot.orientation, p_BP));
-      if (tile.outside) continue;
-      overlap.add(law, tile.depth + bodies[i]->boundary_radius(k), 1.,
-                  contact_constants(experiment, bodies[i]->boundary_material(k), tile.material));
-    }
+  for (const RobotPoint& point : points_in_base(robot)) {
+    if (point.body == 0 && !robot.mobile) continue;
+    const contact::TilePoint tile =
+        ground.query(robot.location + rotate(robot.orientation, point.p_BP));
+    if (tile.outside) continue;
+    overlap.add(law, tile.depth + point.radius, 1.,
+                contact_constants(experiment, point.material, tile.material));
   }
   return overlap;
 }

@@ -33,4 +33,17 @@ std::vector<Pose> body_poses(const RobotSpec& robot) {
   return poses;
 }
 
+std::vector<RobotPoint> points_in_base(const RobotSpec& robot) {
+  std::vector<RobotPoint> points;
+  const std::vector<Pose> poses = body_poses(robot);
+  const std::vector<const BodySpec*> bodies = bodies_of(robot);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t k = 0; k < bodies[i]->boundary_points.size(); ++k)
+      points.push_back(
+          {poses[i].position + rotate(poses[i].orientation, bodies[i]->boundary_points[k]), i,
+           bodies[i]->boundary_radius(k), bodies[i]->boundary_material(k)});
+  }
+  return points;
+}
+
 }  // namespace hookpoint::simulation

@@ -29,4 +29,14 @@ Pose frame_before(const TreeLink& at);
 /// X_BL of every body in the base's frame, in the order of robot_tree.h. O(bodies).
 std::vector<Pose> body_poses(const RobotSpec& robot);
 
+/// A boundary point.
+struct RobotPoint {
+  Vector3d p_BP;         ///< base axes [m]
+  std::size_t body = 0;  ///< in the order of robot_tree.h
+  double radius = 0.;    ///< [m]
+  int material = no_material;
+};
+/// All of a robot, body by body. O(bodies + points).
+std::vector<RobotPoint> points_in_base(const RobotSpec& robot);
+
 }  // namespace hookpoint::simulation

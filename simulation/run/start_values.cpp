@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "simulation/experiment/names.h"
+#include "simulation/experiment/robot_tree.h"
 #include "simulation/run/initial_state.h"
 #include "simulation/wiring/port_search.h"
 #include "text/number.h"
@@ -49,23 +51,23 @@ std::vector<StartValue> present_pose(const Experiment& experiment, const WorldSt
   auto body = state.bodies.begin();
   auto joint = state.joints.begin();
   for (const RobotSpec& robot : experiment.robots) {
-    const std::string name = experiment.world + "." + robot.name + ".";
-    const std::string base = name + (robot.base.name.empty() ? "base" : robot.base.name) + ".";
+    std::vector<std::string> trails = body_names(robot);
+    for (std::string& trail : trails)
+      trail = experiment.world + "." + robot.name + "." + trail + ".";
     if (robot.mobile) {
+      const std::string& base = trails.front();
       add(base + "location", numbers(body->position), numbers(robot.location));
       add(base + "orientation", numbers(body->orientation), numbers(robot.orientation));
       add(base + "velocity", numbers(Vector3d{}), numbers(robot.velocity));
       add(base + "angular_velocity", numbers(Vector3d{}), numbers(robot.angular_velocity));
     }
-    ++body;
-    for (const ChainSpec& chain : robot.chains) {
-      for (const LinkSpec& link : chain.links) {
-        const std::string trail = name + chain.name + "." + link.body.name + ".";
-        add(trail + "angle", {joint->angle}, {link.angle});
-        add(trail + "rate", {0.}, {link.rate});
-        ++body, ++joint;
-      }
-    }
+    for_each_link(robot, [&](const TreeLink& at) {
+      const std::string& trail = trails[1 + at.joint()];
+      add(trail + "angle", {joint->angle}, {at.link.angle});
+      add(trail + "rate", {0.}, {at.link.rate});
+      ++joint;
+    });
+    body += static_cast<std::ptrdiff_t>(trails.size());
   }
   return values;
 }

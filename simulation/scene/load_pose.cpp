@@ -17,29 +17,6 @@
 namespace hookpoint::simulation {
 namespace {
 
-/// A boundary point in base axes and the body it is on.
-struct RobotPoint {
-  Vector3d p_BP;
-  int body = 0;
-  double radius = 0.;
-  int material = no_material;
-};
-
-std::vector<RobotPoint> points_in_base(const RobotSpec& robot) {
-  std::vector<RobotPoint> points;
-  const std::vector<Pose> poses = body_poses(robot);
-  const std::vector<const BodySpec*> bodies = bodies_of(robot);
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const std::vector<Vector3d>& of_body = bodies[i]->boundary_points;
-    for (std::size_t k = 0; k < of_body.size(); ++k) {
-      points.push_back({poses[i].position + rotate(poses[i].orientation, of_body[k]),
-                        static_cast<int>(i), bodies[i]->boundary_radius(k),
-                        bodies[i]->boundary_material(k)});
-    }
-  }
-  return points;
-}
-
 /// Depth at which `count` points bear the robot's weight across the tile: m g cos / n each. A peer,
 /// and a law without penetration, starts touching.
 double resting_depth(const RobotSpec& robot, int count, int foot_material,

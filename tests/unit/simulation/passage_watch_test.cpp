@@ -1,4 +1,4 @@
-// Bodies that pass through an obstacle are told once, and those that go around it are not.
+// Bodies that pass through an obstacle are reported once, and those that go around it are not.
 #include "simulation/run/passage_watch.h"
 
 #include <gtest/gtest.h>
