@@ -33,6 +33,8 @@ text = site.as_python_markdown("see [other.md](other.md#x):\n- one\n  - two\n```
 assert text == 'see [The other page](other.md#x):\n\n- one\n    - two\n```cpp title="a.cpp"\n- no item\n```', text
 assert list(site.dead_links(pages)) == ["index.html: #there: no such heading", "index.html: no.html: no such file"]
 assert "docs/faq.md: not in the navigation of docs/site/mkdocs.yml" in site.unlisted("docs/README.md")
+entries = [{"location": "docs/faq.html"}, {"location": "docs/decisions/0001.html"}, {"location": "CHANGELOG.html#x"}]
+assert site.without_history({"config": 1, "docs": entries}) == {"config": 1, "docs": entries[:1]}
 print("right")
 PYTHON
 )" right
