@@ -21,6 +21,14 @@ const questions = [
   ["How do I get foot forces as CSV?", "record csv rate", "docs/data.html", "CSV"],
   ["How do I step a thousand worlds at once?", "Batch worlds threads", "docs/python.html", "Batch"],
   ["Can I compare an engine of my own?", "engine program protocol", "docs/engine_protocol.html", "protocol"],
+  ["My ball rolls for ever.", "rolling resistance", "docs/contact.html", "rolling_resistance"],
+  ["Can the ground be a treadmill?", "treadmill", "docs/obstacles.html", "a treadmill"],
+  ["Do two robots touch each other?", "contact between robots", "docs/contact_geometry.html", "bodies of different robots touch"],
+  ["The foot is rubber: which friction holds?", "friction of foot and ground", "docs/contact.html", "material of that foot"],
+  ["Why is my URDF's inertia refused?", "invalid inertia", "docs/urdf.html", "inertia = repair"],
+  ["Why does a thrown stick gain energy?", "spinning body unstable", "docs/integrators.html", "mean velocity of the step"],
+  ["Can a servo have a top speed?", "velocity limit", "docs/joints.html", "velocity_limit"],
+  ["How do I go back to a saved state?", "continue a run from a saved state", "docs/movies.html", "--resume"],
 ];
 const kinds = { ".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".json": "application/json", ".svg": "image/svg+xml" };
 
