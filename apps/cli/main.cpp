@@ -744,6 +744,17 @@ std::string named_once(const std::string& message) {
   return rest.starts_with(name + " ") ? rest : message;
 }
 
+/// "hookpoint study": the command that was given, with its own commands.
+std::string given_command(const CLI::App& app) {
+  std::string words = app.get_name();
+  const CLI::App* at = &app;
+  while (!at->get_subcommands().empty()) {
+    at = at->get_subcommands().front();
+    words += " " + at->get_name();
+  }
+  return words;
+}
+
 int main_with(int count, char** words) {
   const std::vector<std::string> given(words + 1, words + count);
   if (const std::string problem = problem_of_empty(given); !problem.empty()) {
@@ -780,8 +791,8 @@ int main_with(int count, char** words) {
   } catch (const CLI::Success& asked) {
     return app.exit(asked);
   } catch (const CLI::ParseError& error) {
-    application::print_error(named_once(error.what()) +
-                             " (`hookpoint --help` says what is possible)");
+    application::print_error(named_once(error.what()) + " (`" + given_command(app) +
+                             " --help` says what is possible)");
     return wrong_input;
   }
   try {
