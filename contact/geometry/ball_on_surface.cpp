@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/geometry/border.h"
 #include "contact/geometry/places_near.h"
 
 namespace hookpoint::contact {
@@ -48,17 +49,20 @@ class Found {
 };
 
 void touch_from_outside(const Surface& surface, const Vector3d& c, double radius,
-                        const Vector3d& cap, double reach, Found& found) {
+                        const Vector3d& outward, double reach, Found& found) {
+  const bool is_corner = radius == 0. && outward != Vector3d{};
   places_near(surface, c, radius + reach, radius == 0.,
               [&](const Vector3d& normal, double distance, int material, bool at_corner) {
-                if (at_corner && dot(normal, cap) > 0.) return;
+                if (at_corner && dot(normal, outward) > 0.) return;
+                if (is_corner && distance <= edge_width && !points_against(outward, normal)) return;
                 found.add({normal, radius - distance, 1., material});
               });
 }
 
 /// The face that a centre on its way from `before` to `c`, inside, went through first; -1 where it only
-/// touches the border.
-std::int64_t entered_face(const Surface& surface, const Vector3d& before, const Vector3d& c) {
+/// touches the border. `outward`: of a corner, zero of others.
+std::int64_t entered_face(const Surface& surface, const Vector3d& before, const Vector3d& c,
+                          const Vector3d& outward) {
   const Region way{{std::min(before.x, c.x), std::min(before.y, c.y), std::min(before.z, c.z)},
                    {std::max(before.x, c.x), std::max(before.y, c.y), std::max(before.z, c.z)}};
   double first = 2.;
@@ -72,7 +76,13 @@ std::int64_t entered_face(const Surface& surface, const Vector3d& before, const 
       entered = face.id;
     }
   });
-  return entered >= 0 ? entered : surface.face_over(c);
+  if (entered < 0) return surface.face_over(c, outward);
+  if (outward == Vector3d{} || points_against(outward, surface.face(entered).normal))
+    return entered;
+  // Its shape does not lie beyond that face: where it came in flush with an edge, it lies beyond the other.
+  const auto touched = touched_face(surface, before + first * (c - before), outward);
+  if (!touched) return entered;
+  return touched->height(c) < -edge_width ? touched->id : -1;
 }
 
 void hold(Holding& holding, std::int64_t face) {
@@ -144,17 +154,18 @@ std::int64_t face_along(const Surface& surface, const Vector3d& inside, const Ve
 
 BallContacts ball_on_surface(const Surface& surface, const Vector3d& center, double radius,
                              const Vector3d& before, const Holding& held, double reach,
-                             const Vector3d& cap) {
+                             const Vector3d& outward) {
   BallContacts result;
   Found found;
   Holding start = held;
   const bool inside = surface.contains(center);
   if (inside && start.count == 0) {
-    const std::int64_t entered = entered_face(surface, before, center);
+    const Vector3d of_corner = radius == 0. ? outward : Vector3d{};
+    const std::int64_t entered = entered_face(surface, before, center, of_corner);
     if (entered >= 0) hold(start, entered);
   }
   if (!inside || start.count == 0) {
-    touch_from_outside(surface, center, radius, cap, reach, found);
+    touch_from_outside(surface, center, radius, outward, reach, found);
     found.share_into(result);
     return result;
   }

@@ -52,11 +52,13 @@ std::int64_t face_along(const Surface& surface, const Vector3d& inside, const Ve
                         double most_depth);
 
 /// Of a ball of `radius` [m], 0 of a point, at `center`, that was at `before` with `held` (outside
-/// if none): both in the surface's frame. Contacts are those with a depth over -`reach` [m]. Of the ball at
-/// the end of a capsule `cap` is the axis, out of the capsule: it meets a corner with its half beyond the
-/// end, for beside it the capsule's side does; zero of a whole ball. O(faces near it), allocates nothing.
+/// if none): both in the surface's frame. Contacts are those with a depth over -`reach` [m]. `outward`, unit,
+/// points out of the shape that it is part of; zero of a whole ball and of a lone point. The ball at the end
+/// of a capsule meets a corner with its half beyond the end, for beside it the capsule's side does. A corner
+/// that is flush with an edge comes in through the face that its shape lies beyond (border.h). O(faces near
+/// it), allocates nothing.
 BallContacts ball_on_surface(const Surface& surface, const Vector3d& center, double radius,
                              const Vector3d& before, const Holding& held, double reach,
-                             const Vector3d& cap = {});
+                             const Vector3d& outward = {});
 
 }  // namespace hookpoint::contact

@@ -29,16 +29,24 @@ inline double between(const Vector3d& normal, const std::array<Vector3d, 2>& out
   return weight;
 }
 
-/// Whether a corner stands out: all its edges fall away from the mean of their directions.
+/// Directions of edges that differ by less are the same, or cancel [rad].
+inline constexpr double least_angle = 1e-6;
+
+/// Out of the solid at a corner: against the mean direction of its edges, unit; zero where that has no direction.
+inline Vector3d outward_of(const Corner& corner) {
+  Vector3d sum;
+  for (const Vector3d& edge : corner.all_edges()) sum += unit(edge);
+  const double length = norm(sum);
+  return length < least_angle ? Vector3d{} : (-1. / length) * sum;
+}
+
+/// Whether a corner stands out: all its edges fall away from `outward_of`.
 inline bool is_peak(const Corner& corner) {
-  Vector3d mean;
-  for (const Vector3d& edge : corner.all_edges()) mean += unit(edge);
-  const double length = norm(mean);
-  constexpr double least = 1e-6;
-  if (length < least) return false;
-  for (const Vector3d& edge : corner.all_edges())
-    if (dot(unit(edge), mean) < least * length) return false;
-  return true;
+  const Vector3d outward = outward_of(corner);
+  return outward != Vector3d{} &&
+         std::ranges::all_of(corner.all_edges(), [&](const Vector3d& edge) {
+           return dot(unit(edge), outward) <= -least_angle;
+         });
 }
 
 /// Two faces that meet both have their edge [m].

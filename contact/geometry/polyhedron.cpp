@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "contact/geometry/folds.h"
+#include "contact/geometry/border.h"
 
 namespace hookpoint::contact {
 namespace {
@@ -107,16 +107,17 @@ Face Polyhedron::nearest_face(const Vector3d& inside) const {
                                    [&](const Face& face) { return face.height(inside); });
 }
 
-// On a border it may still be under another face, as the corners of a box are that stands flush on
-// another; it is under none where all others are far.
-std::int64_t Polyhedron::face_over(const Vector3d& inside) const {
+// On the border of a face against which it points it only touches. On another it may still be under a face
+// beside, as the corners of a box are that stands flush on another; it is under none where all are far.
+std::int64_t Polyhedron::face_over(const Vector3d& inside, const Vector3d& outward) const {
+  if (touched_face(*this, inside, outward)) return -1;
   const auto below = [&](const Face& face) {
     const double height = face.height(inside);
     return height < -edge_width ? height : -std::numeric_limits<double>::max();
   };
   const Face& nearest = *std::ranges::max_element(faces_, {}, below);
-  const bool on_border = nearest_face(inside).height(inside) >= -edge_width;
-  return on_border && -nearest.height(inside) > 0.02 * thickness_ ? -1 : nearest.id;
+  const bool is_on_border = nearest_face(inside).height(inside) >= -edge_width;
+  return is_on_border && -nearest.height(inside) > 0.02 * thickness_ ? -1 : nearest.id;
 }
 
 void Polyhedron::faces(const Region& /*region*/, Visit<Face> visit) const {

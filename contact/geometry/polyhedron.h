@@ -23,7 +23,7 @@ class Polyhedron final : public Surface {
   bool contains(const Vector3d& place) const override;
   Face face(std::int64_t id) const override { return faces_[static_cast<std::size_t>(id)]; }
   Face nearest_face(const Vector3d& inside) const override;
-  std::int64_t face_over(const Vector3d& inside) const override;
+  std::int64_t face_over(const Vector3d& inside, const Vector3d& outward) const override;
   void faces(const Region& region, Visit<Face> visit) const override;
   void ridges(const Region& region, Visit<Ridge> visit) const override;
   void corners(const Region& region, Visit<Corner> visit) const override;

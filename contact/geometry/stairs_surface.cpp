@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/geometry/border.h"
 #include "contact/geometry/cell_number.h"
 
 namespace hookpoint::contact {
@@ -69,6 +70,14 @@ Face StairsSurface::nearest_face(const Vector3d& inside) const {
   const Face beside = riser_face(before);
   const double foot = std::min(level(before), level(before + 1));
   return inside.z > foot && beside.height(inside) > nearest.height(inside) ? beside : nearest;
+}
+
+// Flush with a riser that is behind it a corner is under the tread.
+std::int64_t StairsSurface::face_over(const Vector3d& inside, const Vector3d& outward) const {
+  const Face nearest = nearest_face(inside);
+  const bool is_behind = on_border(nearest, inside) && outward != Vector3d{} &&
+                         !points_against(outward, nearest.normal);
+  return is_behind ? 2 * tread_at(along(inside)) : nearest.id;
 }
 
 StairsSurface::Range StairsSurface::treads(const Region& region) const {

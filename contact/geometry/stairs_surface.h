@@ -20,6 +20,7 @@ class StairsSurface final : public Surface {
   bool contains(const Vector3d& place) const override;
   Face face(std::int64_t id) const override;
   Face nearest_face(const Vector3d& inside) const override;
+  std::int64_t face_over(const Vector3d& inside, const Vector3d& outward) const override;
   bool is_clear_of(const Region& region) const override;
   void faces(const Region& region, Visit<Face> visit) const override;
   void ridges(const Region& region, Visit<Ridge> visit) const override;

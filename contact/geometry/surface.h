@@ -112,8 +112,10 @@ class Surface {
   /// The face through which a place inside is nearest to the outside.
   virtual Face nearest_face(const Vector3d& inside) const = 0;
   /// The face that a place is under which is found inside and came through none; -1 where it only
-  /// touches the border.
-  virtual std::int64_t face_over(const Vector3d& inside) const { return nearest_face(inside).id; }
+  /// touches the border. `outward`: of the corner that is there (border.h), zero of another place.
+  virtual std::int64_t face_over(const Vector3d& inside, const Vector3d& /*outward*/) const {
+    return nearest_face(inside).id;
+  }
   /// Whether nothing of the solid is in the region; false where that would take long to find out.
   virtual bool is_clear_of(const Region& /*region*/) const { return false; }
   /// Those that may meet the region, and perhaps more, each once, in an order that depends on the

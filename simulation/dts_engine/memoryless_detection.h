@@ -43,8 +43,12 @@ class MemorylessDetection final : private DetectionMemory {
   const ObjectMotion& before(std::size_t object) const override { return motions_[object]; }
   bool stays_outside() const override { return stays_outside_; }
   contact::Holding holding(const ContactKey&) const override { return {}; }
-  std::optional<PressingPlace> place_near(std::size_t, std::size_t,
-                                          const Vector3d&) const override {
+  std::optional<PressingPlace> place_near(std::size_t, std::size_t, const Vector3d&,
+                                          double) const override {
+    return std::nullopt;
+  }
+  std::optional<PressingPlace> place_beside(std::size_t, std::size_t,
+                                            const Vector3d&) const override {
     return std::nullopt;
   }
 

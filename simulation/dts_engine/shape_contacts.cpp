@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "contact/bristle_step.h"
 #include "contact/terrain/rolling.h"
@@ -12,9 +13,6 @@
 
 namespace hookpoint::simulation {
 namespace {
-
-/// Contacts of two kinds that are nearer to each other are at one place [m].
-constexpr double same_place = 1e-5;
 
 /// Of a contact, the place on b's surface [m].
 Vector3d other_place(const ShapeContact& contact) {
@@ -196,23 +194,45 @@ contact::Holding ShapeContacts::holding(const ContactKey& key) const {
   return {};
 }
 
-std::optional<PressingPlace> ShapeContacts::place_near(std::size_t a, std::size_t b,
-                                                       const Vector3d& place) const {
-  double nearest = same_place;
+template <class Side>
+std::optional<PressingPlace> ShapeContacts::nearest_place(const Vector3d& place, double reach,
+                                                          const Side& side) const {
+  double nearest = reach;
   std::optional<PressingPlace> found;
-  const auto consider = [&](std::size_t first, std::size_t second, double sign) {
-    for (const Place& other :
-         kept(static_cast<std::int64_t>(first), static_cast<std::int64_t>(second))) {
-      const double distance =
-          std::min(norm(other.at.place - place), norm(other_place(other.at) - place));
-      if (distance >= nearest || !(other.at.depth > 0.)) continue;
-      nearest = distance;
-      found = {sign * other.at.normal, other.at.depth + other.at.begun_at + same_place};
-    }
-  };
-  consider(a, b, 1.);
-  consider(b, a, -1.);
+  for (const Place& other : std::span(committed_.places).first(committed_.count)) {
+    const ShapeContact& at = other.at;
+    const double sign = side(at.key);
+    const double distance = std::min(norm(at.place - place), norm(other_place(at) - place));
+    if (sign == 0. || distance >= nearest || !(at.depth > 0.)) continue;
+    nearest = distance;
+    const double depth = at.depth + at.begun_at;
+    found = {{at.key.a, at.place, at.material_a},
+             {at.key.b, at.place + depth * at.normal, at.material_b},
+             sign * at.normal,
+             depth,
+             distance};
+    if (sign < 0.) std::swap(found->a, found->b);
+  }
   return found;
+}
+
+std::optional<PressingPlace> ShapeContacts::place_near(std::size_t a, std::size_t b,
+                                                       const Vector3d& place, double reach) const {
+  const auto first = static_cast<std::int64_t>(a), second = static_cast<std::int64_t>(b);
+  return nearest_place(place, reach, [&](const ContactKey& key) {
+    if (key.a == first && key.b == second) return 1.;
+    return key.a == second && key.b == first ? -1. : 0.;
+  });
+}
+
+std::optional<PressingPlace> ShapeContacts::place_beside(std::size_t a, std::size_t b,
+                                                         const Vector3d& place) const {
+  const auto first = static_cast<std::int64_t>(a), second = static_cast<std::int64_t>(b);
+  constexpr double any = std::numeric_limits<double>::infinity();
+  return nearest_place(place, any, [&](const ContactKey& key) {
+    if ((key.a == first) != (key.b == second)) return 1.;
+    return (key.a == second) != (key.b == first) ? -1. : 0.;
+  });
 }
 
 std::int64_t ShapeContacts::match_key(std::size_t found) const {

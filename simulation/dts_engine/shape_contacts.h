@@ -157,8 +157,15 @@ class ShapeContacts final : private DetectionMemory {
     return committed_.motions[object];
   }
   contact::Holding holding(const ContactKey& key) const override;
-  std::optional<PressingPlace> place_near(std::size_t a, std::size_t b,
-                                          const Vector3d& place) const override;
+  std::optional<PressingPlace> place_near(std::size_t a, std::size_t b, const Vector3d& place,
+                                          double reach) const override;
+  std::optional<PressingPlace> place_beside(std::size_t a, std::size_t b,
+                                            const Vector3d& place) const override;
+  /// The nearest that presses; `side(key)`: 1 of one that acts as the one looked for, -1 of one that acts the
+  /// other way, 0 of any other.
+  template <class Side>
+  std::optional<PressingPlace> nearest_place(const Vector3d& place, double reach,
+                                             const Side& side) const;
   /// The committed places of which object a touches b.
   std::span<const Place> kept(std::int64_t a, std::int64_t b) const;
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "contact/geometry/folds.h"
+#include "contact/geometry/border.h"
 #include "contact/geometry/rim_on_ridge.h"
 #include "contact/geometry/rim_on_round.h"
 #include "simulation/experiment/robot_tree.h"
@@ -105,11 +105,12 @@ struct RimOnFaces {
 };
 
 /// How far a place is to be lifted to be outside of a surface on whose border it lies [m]; zero of any
-/// other place.
-Vector3d lift_off(const contact::Surface& surface, const Vector3d& place) {
+/// other place. `outward`: of a corner (contact/geometry/border.h), zero of another place.
+Vector3d lift_off(const contact::Surface& surface, const Vector3d& place, const Vector3d& outward) {
   constexpr double over = 1.1 * contact::edge_width;  // so wide is the border
   if (!surface.contains(place)) return {};
-  const contact::Face face = surface.nearest_face(place);
+  const auto touched = contact::touched_face(surface, place, outward);
+  const contact::Face face = touched ? *touched : surface.nearest_face(place);
   const double height = face.height(place);
   return height < -contact::edge_width ? Vector3d{} : (over - height) * face.normal;
 }
@@ -324,31 +325,61 @@ void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_
   const Vector3d center = motions_[a].to_world(ball.center);
   const ContactKey key{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), feature, other};
   const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(ball.center));
+  const Vector3d outward = transpose_times(frame.R_WB, motions_[a].R_WB * ball.outward);
   Vector3d place_in_b = frame.to_object(center), lift;
   if (memory_->stays_outside()) {
-    lift = lift_off(surface, place_in_b);
+    lift = lift_off(surface, place_in_b, ball.is_corner ? outward : Vector3d{});
     place_in_b += lift;
   }
   contact::Holding held = memory_->holding(key);
-  // A corner that comes in over an edge takes over what the edge held, not what it came through.
-  if (held.count == 0 && ball.radius == 0. && surface.contains(place_in_b)) {
-    if (const auto edge = memory_->place_near(a, b, memory_->before(b).to_world(before))) {
-      const std::int64_t face =
-          contact::face_along(surface, place_in_b, transpose_times(frame.R_WB, edge->normal),
-                              edge->most_depth + norm(place_in_b - before));
-      if (face >= 0) held = {{face}, 1};
-    }
-  }
+  if (held.count == 0 && ball.radius == 0. && surface.contains(place_in_b))
+    held = taken_over(surface, a, b, before, place_in_b, ball.material,
+                      material_of(b, center, material_b));
   const contact::BallContacts found =
-      contact::ball_on_surface(surface, place_in_b, ball.radius, before, held, reach_,
-                               transpose_times(frame.R_WB, motions_[a].R_WB * ball.cap));
+      contact::ball_on_surface(surface, place_in_b, ball.radius, before, held, reach_, outward);
   for (const contact::SurfaceContact& at : found.all()) {
     const Vector3d normal = frame.R_WB * at.normal;
     const Vector3d place = center - ball.radius * normal;
     const double depth = at.depth + dot(lift, at.normal);
-    add({key, place, normal, depth, at.part, ball.material, material_of(b, place, material_b),
-         found.holding});
+    const double share =
+        ball.is_corner ? contact::share_with_corner(surface, place_in_b, at.normal, at.depth) : 1.;
+    add({key, place, normal, depth, share * at.part, ball.material,
+         material_of(b, place, material_b), found.holding});
   }
+}
+
+// Not what they came through: a corner that comes in over an edge takes over what the edge held, and one that
+// comes over a seam between objects of one material, from one that is flush with b or with a, what that one
+// held. Where the one beside is lower the corner hits a step.
+contact::Holding ShapeDetection::taken_over(const contact::Surface& surface, std::size_t a,
+                                            std::size_t b, const Vector3d& before,
+                                            const Vector3d& inside, int material_a,
+                                            int material_b) const {
+  constexpr double flush = 1e-6;  // [m]: what two surfaces may differ in height
+  const Vector3d place = memory_->before(b).to_world(before);
+  const double near = same_place + norm(inside - before);
+  const auto face_at = [&](const PressingPlace& pressing, double most_depth) {
+    const Vector3d normal = transpose_times(motions_[b].R_WB, pressing.normal);
+    return contact::face_along(surface, inside, normal, most_depth + near);
+  };
+  if (const auto edge = memory_->place_near(a, b, place, near)) {
+    const std::int64_t face = face_at(*edge, edge->depth);
+    if (face >= 0) return {{face}, 1};
+  }
+  const auto beside = memory_->place_beside(a, b, place);
+  if (!beside || beside->a.material != material_a || beside->b.material != material_b) return {};
+  // One that tilts is deeper at the corner than where it presses.
+  const std::int64_t id = face_at(*beside, 2. * beside->depth);
+  if (id < 0) return {};
+  const contact::Face face = surface.face(id);
+  const double height = face.height(before);
+  const auto level_of = [&](const PressingPlace::Side& side) {
+    return face.height(memory_->before(b).to_object(side.place));
+  };
+  const bool is_own = beside->a.object == static_cast<std::int64_t>(a);
+  const double step = is_own ? level_of(beside->b) : level_of(beside->a) - height;
+  const bool is_lower = beside->distance < near && -height <= beside->depth + flush;
+  return std::abs(step) <= flush || is_lower ? contact::Holding{{id}, 1} : contact::Holding{};
 }
 
 std::size_t ShapeDetection::end_before(const contact::RoundSolid& disc, std::size_t b,
@@ -421,7 +452,9 @@ void ShapeDetection::corners_on(std::size_t a, std::size_t b) {
   const ShapeObject &own = objects_[a], &other = objects_[b];
   if (!own.ground || (other.polyhedra.empty() && other.rounds.empty())) return;
   own.ground->corners(near_box(b, motions_[a]), [&](const contact::Corner& corner) {
-    const BallFeature point{corner.position, 0., corner.material};
+    BallFeature point{corner.position, 0., corner.material};
+    point.is_corner = true;
+    point.outward = contact::outward_of(corner);
     const std::int64_t feature = numbered(corner_kind, 0, corner.id);
     for (std::size_t p = 0; p < other.polyhedra.size(); ++p)
       ball_on_surface(*other.polyhedra[p].solid, a, b, point, feature, numbered(corner_kind, p),
@@ -657,10 +690,27 @@ bool ShapeDetection::is_corners(const contact::EdgeContact& at, const contact::S
   return solid.contains(motions_[a].to_object(frame.to_world(corner)));
 }
 
+// Whether the corner at an end of an edge of `of` is under a face of `on` whose plane holds the crossing of
+// that edge at `place`, and along which the crossing pushes (world axes): the edge stands on the face, and
+// does not lie across the ridge beside.
+bool ShapeDetection::stands_on_face(std::size_t of, std::size_t corner, std::size_t on,
+                                    const Vector3d& place, const Vector3d& normal) const {
+  constexpr double aside = 0.2;  // cosine
+  return std::ranges::any_of(*contacts_, [&](const ShapeContact& contact) {
+    return static_cast<std::size_t>(contact.key.a) == of &&
+           static_cast<std::size_t>(contact.key.b) == on &&
+           static_cast<std::size_t>(contact.key.feature) == corner && contact.depth > 0. &&
+           std::abs(dot(contact.normal, normal)) < aside &&
+           dot(place - contact.place, contact.normal) <= 2. * contact.depth;
+  });
+}
+
 // Edges of a's polyhedra across the ridges of `surface`, a part of b.
-void ShapeDetection::edges_on_ridges(const contact::Surface& surface, double half_thickness,
-                                     std::size_t a, std::size_t b, std::int64_t other,
-                                     int material_b) {
+void ShapeDetection::edges_on_ridges(const contact::Surface& surface,
+                                     const PolyhedronFeature* polyhedron_b, std::size_t a,
+                                     std::size_t b, std::int64_t other, int material_b) {
+  const double half_thickness =
+      polyhedron_b != nullptr ? polyhedron_b->half_thickness : solid_ground;
   const ObjectMotion& frame = motions_[b];
   const ShapeObject& own = objects_[a];
   if (own.polyhedra.empty()) return;
@@ -707,10 +757,22 @@ void ShapeDetection::edges_on_ridges(const contact::Surface& surface, double hal
             contact::end_weighted(crossing.contact, {share(crossing, 0), share(crossing, 1)});
         if (weight <= 0.) continue;
         const Vector3d place = frame.to_world(crossing.contact.place);
+        const Vector3d normal = frame.R_WB * crossing.contact.normal;
+        const std::size_t end = crossing.contact.along < 0.5 ? 0 : 1;
+        if (stands_on_face(a, polyhedron.first_corner + solid.ends(crossing.edge)[end], b, place,
+                           normal))
+          continue;
+        if (polyhedron_b != nullptr) {
+          const double at = dot(crossing.contact.place - ridge.point, ridge.along);
+          const std::size_t ridge_end = at < 0.5 * (ridge.from + ridge.to) ? 0 : 1;
+          const std::size_t corner =
+              polyhedron_b->solid->ends(static_cast<std::size_t>(ridge.id))[ridge_end];
+          if (stands_on_face(b, polyhedron_b->first_corner + corner, a, place, normal)) continue;
+        }
         add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b),
               numbered(edge_kind, p, static_cast<std::int64_t>(crossing.edge)), other + ridge.id},
              place,
-             frame.R_WB * crossing.contact.normal,
+             normal,
              crossing.contact.depth,
              weight,
              polyhedron.material,
@@ -747,12 +809,12 @@ void ShapeDetection::edges_on(std::size_t a, std::size_t b) {
   const ShapeObject &own = objects_[a], &other = objects_[b];
   if (other.ground) {
     sides_on_ridges(*other.ground, a, b, 0, no_material);
-    edges_on_ridges(*other.ground, solid_ground, a, b, 0, no_material);
+    edges_on_ridges(*other.ground, nullptr, a, b, 0, no_material);
   }
   for (std::size_t p = 0; p < other.polyhedra.size(); ++p) {
     const PolyhedronFeature& polyhedron = other.polyhedra[p];
     sides_on_ridges(*polyhedron.solid, a, b, numbered(edge_kind, p), polyhedron.material);
-    edges_on_ridges(*polyhedron.solid, polyhedron.half_thickness, a, b, numbered(edge_kind, p),
+    edges_on_ridges(*polyhedron.solid, &polyhedron, a, b, numbered(edge_kind, p),
                     polyhedron.material);
   }
   for (std::size_t p = 0; p < own.polyhedra.size(); ++p)

@@ -70,10 +70,21 @@ Vector3d belt_velocity(const ShapeContact& contact, std::span<const ObjectMotion
 const contact::MaterialConstants<double>& constants_of(const ContactMaterials& materials,
                                                        const ShapeContact& contact);
 
-/// Where one object pressed on another.
+/// Contacts of two kinds that are nearer to each other are at one place [m].
+inline constexpr double same_place = 1e-5;
+
+/// Where object a pressed on object b, as they stood then, world axes.
 struct PressingPlace {
-  Vector3d normal;         ///< unit, out of the other, world axes
-  double most_depth = 0.;  ///< of the place, with what it may be off [m]
+  /// Of one of the two.
+  struct Side {
+    std::int64_t object = 0;
+    Vector3d place;  ///< on its surface [m]
+    int material = no_material;
+  };
+  Side a, b;
+  Vector3d normal;       ///< unit, out of b
+  double depth = 0.;     ///< [m]
+  double distance = 0.;  ///< of the place from the one that was looked for [m]
 };
 
 /// What detection remembers of the accepted state before: where the objects stood, and which faces
@@ -85,9 +96,12 @@ class DetectionMemory {
   /// Whether nothing comes inside but by rounding, so that what lies on a surface is seen from outside.
   virtual bool stays_outside() const { return false; }
   virtual contact::Holding holding(const ContactKey& key) const = 0;
-  /// A committed contact at `place`, which a's material carries to where it is now; none without one.
+  /// The committed contact of a on b that is nearest to `place`, within `reach` [m]; none without one.
   virtual std::optional<PressingPlace> place_near(std::size_t a, std::size_t b,
-                                                  const Vector3d& place) const = 0;
+                                                  const Vector3d& place, double reach) const = 0;
+  /// Likewise of a on a third object, or of a third object on b, however far.
+  virtual std::optional<PressingPlace> place_beside(std::size_t a, std::size_t b,
+                                                    const Vector3d& place) const = 0;
 };
 
 /// Room for the places where objects touch at once.
@@ -120,6 +134,11 @@ class ShapeDetection {
   void ball_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
                        const BallFeature& ball, std::int64_t feature, std::int64_t other,
                        int material_b);
+  /// The face that holds a corner of a which is found inside b, where another contact tells: at `before`
+  /// and now at `inside`, in b's frame.
+  contact::Holding taken_over(const contact::Surface& surface, std::size_t a, std::size_t b,
+                              const Vector3d& before, const Vector3d& inside, int material_a,
+                              int material_b) const;
   void rim_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
                       const RimFeature& rim, std::int64_t feature, std::int64_t other,
                       int material_b, double half_thickness);
@@ -139,8 +158,11 @@ class ShapeDetection {
   void sides_on_ridges(const contact::Surface& surface, std::size_t a, std::size_t b,
                        std::int64_t other, int material_b);
   contact::RoundSide side_in(std::size_t object, std::size_t side, const ObjectMotion& frame) const;
-  void edges_on_ridges(const contact::Surface& surface, double half_thickness, std::size_t a,
-                       std::size_t b, std::int64_t other, int material_b);
+  /// `polyhedron_b`: what `surface` is of, null for the terrain.
+  void edges_on_ridges(const contact::Surface& surface, const PolyhedronFeature* polyhedron_b,
+                       std::size_t a, std::size_t b, std::int64_t other, int material_b);
+  bool stands_on_face(std::size_t of, std::size_t corner, std::size_t on, const Vector3d& place,
+                      const Vector3d& normal) const;
   bool is_corners(const contact::EdgeContact& at, const contact::Surface& surface,
                   const contact::Ridge& ridge, const contact::Polyhedron& solid, std::size_t edge,
                   std::size_t a, const ObjectMotion& frame) const;

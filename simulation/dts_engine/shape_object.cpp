@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "contact/geometry/border.h"
 #include "contact/geometry/height_field.h"
 #include "contact/geometry/plane_surface.h"
 #include "contact/geometry/stairs_surface.h"
@@ -60,7 +61,7 @@ class FeatureMaker {
     for (const double sign : {-1., 1.}) {
       BallFeature ball{place(sign * end), capsule.radius, shape_.material,
                        shape_.first_point + (sign > 0. ? 1 : 0)};
-      ball.cap = rotate(shape_.orientation, Vector3d{0., 0., sign});
+      ball.outward = rotate(shape_.orientation, Vector3d{0., 0., sign});
       object_.balls.push_back(ball);
     }
     add_round(round(-end, end, capsule.radius, capsule.radius, {0., 0., 1.}, false));
@@ -112,10 +113,15 @@ class FeatureMaker {
   }
   void add_polyhedron(std::unique_ptr<contact::Polyhedron> solid, double half_thickness) const {
     // In the order of the body's boundary points.
+    const std::size_t first = object_.balls.size();
     std::size_t sample = shape_.first_point;
     for (const Vector3d& vertex : solid->vertices())
       object_.balls.push_back({vertex, 0., shape_.material, sample++, true});
-    object_.polyhedra.push_back({std::move(solid), half_thickness, shape_.material});
+    solid->corners({}, [&](const contact::Corner& corner) {
+      object_.balls[first + static_cast<std::size_t>(corner.id)].outward =
+          contact::outward_of(corner);
+    });
+    object_.polyhedra.push_back({std::move(solid), half_thickness, shape_.material, first});
   }
 
   const ShapeSpec& shape_;

@@ -28,7 +28,8 @@ struct BallFeature {
   /// A sample of a rim, which only a grid of heights feels: there rims are points.
   bool is_rim_sample = false;
   double rim_radius = 0.;  ///< of the rim that a sample is of; 0 of others [m]
-  Vector3d cap{};  ///< of a capsule's end, its axis out of the capsule, unit; zero of others
+  /// Out of its shape, unit: a capsule's axis at its end; of a corner as contact::outward_of; else zero.
+  Vector3d outward{};
 };
 struct RimFeature {
   contact::Rim rim;
@@ -44,6 +45,7 @@ struct PolyhedronFeature {
   std::unique_ptr<contact::Polyhedron> solid;
   double half_thickness = 0.;  ///< least depth of its middle below a face [m]
   int material = no_material;
+  std::size_t first_corner = 0;  ///< its vertices among the object's balls begin here
 };
 struct RoundFeature {
   contact::RoundSolid solid;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "contact/geometry/ball_on_surface.h"
+#include "contact/geometry/border.h"
 #include "contact/geometry/cell_number.h"
 #include "contact/geometry/edge_on_ridge.h"
 #include "contact/geometry/folds.h"
@@ -229,6 +230,36 @@ TEST(BallOnABox, TouchesFaceEdgeAndCorner) {
     EXPECT_NEAR(found.contacts[0].depth, r - away, tight);
     EXPECT_NEAR(norm(found.contacts[0].normal - n), 0., tight);
   }
+}
+
+// Flush with a corner of the box, below a shape that lies over the box: whichever way it moves it comes in
+// through the top, and touches nothing while it does not sink.
+TEST(FlushCorner, ComesInThroughTheFaceThatItsShapeLiesBeyond) {
+  const Polyhedron box = Polyhedron::box({0.2, 0.2, 0.2});
+  const Vector3d at{-0.1, -0.1, 0.1}, outward = unit({-1., -1., -1.}), up{0., 0., 1.};
+  const double sink = 1e-7;
+  for (const Vector3d& way : {Vector3d{1e-4, 0., 0.}, Vector3d{0., 1e-4, 0.},
+                              Vector3d{1e-4, 1e-5, 0.}, Vector3d{1.5e-9, 0., 0.}}) {
+    const BallContacts level = ball_on_surface(box, at + way, 0., at, {}, 0., outward);
+    for (const SurfaceContact& contact : level.all()) EXPECT_LE(contact.depth, 0.);
+    const BallContacts sunk = ball_on_surface(box, at + way - sink * up, 0., at, {}, 0., outward);
+    ASSERT_EQ(sunk.count, 1u);
+    EXPECT_EQ(norm(sunk.contacts[0].normal - up), 0.);
+    EXPECT_NEAR(sunk.contacts[0].depth, sink, tight);
+  }
+  // One whose shape lies beside the box comes in through its side.
+  const BallContacts beside =
+      ball_on_surface(box, at + Vector3d{1e-4, 0., -1e-7}, 0., at, {}, 0., unit({1., -1., 1.}));
+  ASSERT_EQ(beside.count, 1u);
+  EXPECT_EQ(beside.contacts[0].normal.x, -1.);
+}
+
+TEST(FlushCorner, SharesWithTheCornerThatItMeets) {
+  const Polyhedron box = Polyhedron::box({0.2, 0.2, 0.2});
+  const Vector3d up{0., 0., 1.};
+  EXPECT_EQ(share_with_corner(box, {0.1, 0.1, 0.0999}, up, 1e-4), 0.5);
+  EXPECT_EQ(share_with_corner(box, {0.1, 0.1 - 1e-8, 0.0999}, up, 1e-4), 1.);
+  EXPECT_EQ(share_with_corner(box, {0.1, 0., 0.0999}, up, 1e-4), 1.);
 }
 
 // The energy of a rim's three springs is 3/2 k d0^2 + 3/4 k a^2, whichever way it leans.
