@@ -147,7 +147,6 @@ class RimSearch {
   }
 
   void on_side() {
-    std::size_t number = 0;
     const auto height = [&](double angle) {
       const auto at = over_side(solid_, circle_.place(angle));
       return at ? at->height : -solid_.radius;
@@ -159,13 +158,12 @@ class RimSearch {
       const double weight = between_faces(at->normal, circle_.radial(angle)) *
                             shorter_way(-at->height, depth_below_ends(place));
       if (weight > 0.)
-        found_.add({RimContact::Kind::side, 0, number++, place, at->normal, -at->height, weight});
+        found_.add({RimContact::Kind::side, 0, 0, place, at->normal, -at->height, weight});
     });
   }
 
  private:
   void on_rim(std::size_t which, const RoundEnd& end) {
-    std::size_t number = 0;
     const auto outside = [&](double angle) {
       const Vector3d across = tangential(circle_.place(angle) - end.center, end.normal);
       return dot(across, across) - end.radius * end.radius;
@@ -190,7 +188,7 @@ class RimSearch {
                             between(normal, {at->out, end.normal}) *
                             between_faces(normal, at->radial);
       if (weight > 0.)
-        found_.add({RimContact::Kind::rim, which, number++, at->place, normal, depth, weight});
+        found_.add({RimContact::Kind::rim, which, 0, at->place, normal, depth, weight});
     });
   }
 

@@ -35,12 +35,14 @@ struct RimContact {
   /// end, on the side.
   enum class Kind { end, rim, side };
   Kind kind = Kind::end;
-  std::size_t end = 0;     ///< of the solid, but for a side's
-  std::size_t number = 0;  ///< among those of its kind and end
-  Vector3d place;          ///< on the rim [m]
-  Vector3d normal;         ///< unit, out of the solid
-  double depth = 0.;       ///< > 0 where they overlap [m]
-  double weight = 1.;      ///< from 0 to 1
+  std::size_t end = 0;  ///< of the solid, but for a side's
+  /// Of its point on an end. Places of the other kinds are not numbered: where one begins or ends the others
+  /// stay what they are.
+  std::size_t number = 0;
+  Vector3d place;      ///< on the rim [m]
+  Vector3d normal;     ///< unit, out of the solid
+  double depth = 0.;   ///< > 0 where they overlap [m]
+  double weight = 1.;  ///< from 0 to 1
 };
 
 /// Two circles have four places in common at most, and a circle two places next to a side.

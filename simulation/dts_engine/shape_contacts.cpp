@@ -14,6 +14,9 @@
 namespace hookpoint::simulation {
 namespace {
 
+/// A depth that makes no energy worth a name [m].
+constexpr double shallow = 1e-6;
+
 /// Of a contact, the place on b's surface [m].
 Vector3d other_place(const ShapeContact& contact) {
   return contact.place + contact.depth * contact.normal;
@@ -244,11 +247,20 @@ std::int64_t ShapeContacts::match_key(std::size_t found) const {
     if (place.at.key != contact.key) continue;
     const std::int64_t index = &place - committed_.places.data();
     const double cosine = dot(place.at.normal, contact.normal);
-    if (cosine <= nearest || is_matched(index)) continue;
+    if (cosine <= nearest || is_matched(index) || !continues(contact, place.at)) continue;
     nearest = cosine;
     match = index;
   }
   return match;
+}
+
+// No depth grows by more than its bodies move: else the same features have met in another place. The faces
+// that hold a ball know themselves where it is.
+bool ShapeContacts::continues(const ShapeContact& contact, const ShapeContact& before) const {
+  if (contact.is_tracked()) return true;
+  const Vector3d apart = way_of(contact.key.a, contact.place, contact.place) -
+                         way_of(contact.key.b, contact.place, contact.place);
+  return contact.depth <= before.depth + before.begun_at + shallow + 2. * norm(apart);
 }
 
 std::int64_t ShapeContacts::match_place(std::size_t found) const {
@@ -291,7 +303,6 @@ void ShapeContacts::match() {
 }
 
 void ShapeContacts::limit_new_energy() {
-  constexpr double shallow = 1e-6;  // [m]
   for (std::size_t i = 0; i < found_.size(); ++i) {
     ShapeContact& contact = found_[i];
     if (contact.is_tracked() || contact.depth <= 0.) continue;

@@ -186,6 +186,7 @@ class ShapeContacts final : private DetectionMemory {
   /// What the law's normal spring holds at a place of `depth` [J].
   double normal_energy(const ShapeContact& contact, double depth) const;
   std::int64_t match_key(std::size_t found) const;
+  bool continues(const ShapeContact& contact, const ShapeContact& before) const;
   std::int64_t match_place(std::size_t found) const;
   bool is_matched(std::int64_t place) const { return matched_[static_cast<std::size_t>(place)]; }
   /// Of the ball that a contact is of; 0 of others [m].

@@ -245,6 +245,7 @@ void ShapeDetection::detect(std::span<const ObjectMotion> motions, const Detecti
 }
 
 void ShapeDetection::pair(std::size_t i, std::size_t j) {
+  first_of_pair_ = contacts_->size();
   for (const auto& [a, b] : {std::pair{i, j}, std::pair{j, i}}) {
     balls_on(a, b);
     rims_on(a, b);
@@ -521,16 +522,16 @@ void ShapeDetection::rim_on_surface(const contact::Surface& surface, std::size_t
   surface.ridges(
       contact::region_about(rim.center, rim.radius + reach_), [&](const contact::Ridge& ridge) {
         const contact::RimCrossings found = contact::rim_on_ridge(ridge, rim, reach_);
-        for (std::size_t i = 0; i < found.count; ++i) {
-          const contact::RimCrossing& at = found.crossings[i];
+        for (const contact::RimCrossing& at : found.all()) {
           if (at.depth > rim.radius) continue;
           // Between the side and the end of the shape that meet in the rim.
           const double weight =
               contact::between(at.normal, ridge.outwards) *
               contact::between(-at.normal, {at.radial, shape.end_against(at.normal)}) *
               contact::shorter_way(at.depth, depth_of_ridge(ridge, shape, at));
+          // Not numbered: where one begins or ends the others stay what they are.
           if (weight > 0.)
-            touch(at.place, at.normal, at.depth, weight, i, other + of_a_ridge + ridge.id);
+            touch(at.place, at.normal, at.depth, weight, 0, other + of_a_ridge + ridge.id);
         }
       });
 }
@@ -696,13 +697,14 @@ bool ShapeDetection::is_corners(const contact::EdgeContact& at, const contact::S
 bool ShapeDetection::stands_on_face(std::size_t of, std::size_t corner, std::size_t on,
                                     const Vector3d& place, const Vector3d& normal) const {
   constexpr double aside = 0.2;  // cosine
-  return std::ranges::any_of(*contacts_, [&](const ShapeContact& contact) {
-    return static_cast<std::size_t>(contact.key.a) == of &&
-           static_cast<std::size_t>(contact.key.b) == on &&
-           static_cast<std::size_t>(contact.key.feature) == corner && contact.depth > 0. &&
-           std::abs(dot(contact.normal, normal)) < aside &&
-           dot(place - contact.place, contact.normal) <= 2. * contact.depth;
-  });
+  return std::ranges::any_of(
+      std::span(*contacts_).subspan(first_of_pair_), [&](const ShapeContact& contact) {
+        return static_cast<std::size_t>(contact.key.a) == of &&
+               static_cast<std::size_t>(contact.key.b) == on &&
+               static_cast<std::size_t>(contact.key.feature) == corner && contact.depth > 0. &&
+               std::abs(dot(contact.normal, normal)) < aside &&
+               dot(place - contact.place, contact.normal) <= 2. * contact.depth;
+      });
 }
 
 // Edges of a's polyhedra across the ridges of `surface`, a part of b.

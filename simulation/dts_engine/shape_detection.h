@@ -195,6 +195,7 @@ class ShapeDetection {
   std::span<const ObjectMotion> motions_;
   const DetectionMemory* memory_ = nullptr;
   std::vector<ShapeContact>* contacts_ = nullptr;
+  std::size_t first_of_pair_ = 0;  ///< where those of the present two objects begin
   bool left_out_ = false;
 };
 

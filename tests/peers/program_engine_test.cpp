@@ -78,22 +78,6 @@ TEST_F(ProgramEngineTest, MujocoCreepsAsItDoesByItself) {
   EXPECT_LT(creep_speed(*still, slope_axes(15. * degree, 0.).downhill, 1e-3, 2., 3.), 1e-8);
 }
 
-/// Where a block on 15 deg that is thrown comes to, step by step.
-std::vector<double> thrown(const reference::ProgramEngine& engine, const std::string& settings,
-                           double contact::MaterialConstants<double>::*constant, double factor) {
-  simulation::Experiment experiment = sloped_block(15. * degree, 0.2, 0.5, 1e-3, settings);
-  experiment.robots[0].angular_velocity = {0.3, -0.5, 0.2};
-  experiment.robots[0].velocity = {0.02, 0.01, 0.};
-  experiment.materials[0].constants.*constant *= factor;
-  const auto world = engine.make(experiment);
-  std::vector<double> values;
-  for (int i = 0; i < 200 && world->step().ok(); ++i) {
-    const auto& body = world->state().bodies[0];
-    values.insert(values.end(), {body.position.x, body.position.y, body.position.z});
-  }
-  return values;
-}
-
 // What a notice names as unread changes nothing, and what it does not name changes the motion.
 TEST_F(ProgramEngineTest, SaysWhichConstantsItDoesNotRead) {
   using Constants = contact::MaterialConstants<double>;

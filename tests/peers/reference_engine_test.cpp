@@ -194,24 +194,6 @@ TEST(PeerEngine, SaysWhereItDoesNotReadTheRestitution) {
   }
 }
 
-// Without samples there is nothing to touch with in its place.
-/// The block thrown at a slope, its material with `factor` times that constant.
-std::vector<double> thrown(const reference::Peer& peer, const std::string& settings,
-                           double contact::MaterialConstants<double>::*constant, double factor) {
-  simulation::Experiment experiment = sloped_block(15. * degree, 0.2, 0.5, 1e-3, settings);
-  experiment.robots[0].angular_velocity = {0.3, -0.5, 0.2};
-  experiment.robots[0].velocity = {0.02, 0.01, 0.};
-  experiment.materials[0].constants.*constant *= factor;
-  const auto engine = peer.make(experiment);
-  std::vector<double> values;
-  // It comes to rest.
-  for (int i = 0; i < 200 && engine->step().ok(); ++i) {
-    const auto& body = engine->state().bodies[0];
-    values.insert(values.end(), {body.position.x, body.position.y, body.position.z});
-  }
-  return values;
-}
-
 TEST(PeerEngine, SaysWhichConstantsItDoesNotRead) {
   for (const auto& peer : reference::peers()) {
     if (!peer.found()) continue;
@@ -252,6 +234,7 @@ TEST(PeerEngine, SaysNothingOfConstantsThatNobodyMeans) {
   }
 }
 
+// Without samples there is nothing to touch with in its place.
 TEST(PeerEngine, RunsALegconeOrNamesIt) {
   simulation::Experiment experiment = sloped_block(0., 0., 0.5, 1e-3);
   experiment.robots[0].base.shapes[0].geometry = simulation::Legcone{0.3, 0.05, 0.05};

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "tests/support/command.h"
-#include "tests/support/load_mjcf.h"
+#include "tests/support/mjcf_text.h"
 
 namespace hookpoint::tests {
 namespace {

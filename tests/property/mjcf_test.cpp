@@ -20,9 +20,9 @@
 #include "simulation/experiment/robot_tree.h"
 #include "tests/support/command.h"
 #include "tests/support/folders.h"
-#include "tests/support/load_mjcf.h"
 #include "tests/support/load_text.h"
 #include "tests/support/mjcf_robot.h"
+#include "tests/support/mjcf_text.h"
 #include "tests/support/text.h"
 #ifdef HOOKPOINT_HAS_MUJOCO
 #include <mujoco/mujoco.h>

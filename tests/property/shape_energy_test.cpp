@@ -24,7 +24,7 @@ TEST_P(DrawnYards, ComeToRestWithThem) {
 
 // Those from 82 on once failed: discs, cones and tins that met rims, edges and each other, corners beside a capsule and over a nosing.
 INSTANTIATE_TEST_SUITE_P(Seeds, DrawnYards,
-                         ::testing::Values(1u, 2u, 3u, 116u, 157u, 173u, 369u, 510u, 528u));
+                         ::testing::Values(1u, 2u, 3u, 116u, 157u, 173u, 369u, 510u, 528u, 905u));
 
 }  // namespace
 }  // namespace hookpoint

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "reference/engines.h"
 #include "reference/experiment_checks.h"
@@ -69,6 +70,24 @@ inline simulation::Experiment sloped_block(double angle, double azimuth, double 
   experiment.robots[0].location = 0.05 * axes.normal;
   experiment.robots[0].orientation = axes.orientation;
   return experiment;
+}
+
+/// Where the block comes to, step by step, that is thrown on a slope of 15 deg until it rests: in `engine`, a
+/// Peer or a ProgramEngine, with `factor` times that constant of its material.
+template <class Maker>
+std::vector<double> thrown(const Maker& engine, const std::string& settings,
+                           double contact::MaterialConstants<double>::*constant, double factor) {
+  simulation::Experiment experiment = sloped_block(15. * degree, 0.2, 0.5, 1e-3, settings);
+  experiment.robots[0].angular_velocity = {0.3, -0.5, 0.2};
+  experiment.robots[0].velocity = {0.02, 0.01, 0.};
+  experiment.materials[0].constants.*constant *= factor;
+  const auto world = engine.make(experiment);
+  std::vector<double> values;
+  for (int i = 0; i < 200 && world->step().ok(); ++i) {
+    const auto& body = world->state().bodies[0];
+    values.insert(values.end(), {body.position.x, body.position.y, body.position.z});
+  }
+  return values;
 }
 
 /// A slope that falls along +x, as tiles of a grid with cells of 0.5 m, 8 m wide.

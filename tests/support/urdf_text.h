@@ -3,17 +3,12 @@
 
 #include <string>
 
-#include "tests/support/command.h"
-#include "tests/support/load_text.h"
+#include "tests/support/load_robot.h"
 
 namespace hookpoint::urdf_text {
 
-/// The World around an Include of robot.urdf, which is `urdf`; `arguments` are the Include's.
-inline Loaded load_urdf(const std::string& urdf, const std::string& arguments = "") {
-  const testing::Workplace place;
-  place.file("robot.urdf", urdf);
-  return load_file(
-      place.file("scene.hook", "World w { Include \"robot.urdf\" (name = r" + arguments + "); }"));
+inline Loaded load_urdf(const std::string& text, const std::string& arguments = "") {
+  return tests::load_robot("robot.urdf", text, arguments);
 }
 
 inline const std::string inertial =

@@ -465,13 +465,16 @@ TEST(ShapeContact, OfTooManyPlacesTheDeepestCarry) {
       "1 mm; wavelength = 40 mm; spacing = 10 mm; size = 1, 1; material = soft; } Robot plate { "
       "Base.mobile { location = 0, 0, 0.021; Shape.Box { dimensions = 0.2, 0.2, 0.04; mass = 5 kg; "
       "} } } }");
-  run.step(2000);
+  run.step(1000);
   const auto says = [](const std::string& notice) {
     return notice.find("the deepest of them carry") != std::string::npos;
   };
   EXPECT_TRUE(std::ranges::any_of(run.world().state().notices, says));
+  // Which places are the deepest changes, so the plate trembles; the mean force on it is its weight.
+  const double before = run["yard.plate.velocity.z"];
+  run.step(2000);
+  EXPECT_NEAR(run["yard.plate.velocity.z"], before, 1e-3 * 9.81 * 0.4);
   EXPECT_NEAR(run["yard.plate.position.z"], 0.02, 0.01);
-  EXPECT_LT(std::abs(run["yard.plate.velocity.z"]), 1e-3);
 }
 
 /// How far two boxes of `half` edges overlap: the least of their overlaps along the axes that may part

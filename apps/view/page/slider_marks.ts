@@ -41,7 +41,7 @@ export class SliderMarks {
         if (due !== this.due) return;
         this.stretches = unstable;
         for (const [port, those] of this.listeners) for (const listener of those) listener(this.of(port));
-      }, () => {}); // a lost connection: the next description asks anew
+      }, () => {}); // the connection is lost: the next description requests them again
     }, wait);
   }
 }

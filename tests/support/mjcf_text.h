@@ -1,19 +1,14 @@
-// Robots of an MJCF's text, as an Include reads them.
+// Robots as MJCF text, and the World around an Include of one.
 #pragma once
 
 #include <string>
 
-#include "tests/support/command.h"
-#include "tests/support/load_text.h"
+#include "tests/support/load_robot.h"
 
 namespace hookpoint::tests {
 
-/// The World around an Include of robot.xml, which is `text`.
 inline Loaded load_mjcf(const std::string& text, const std::string& arguments = "") {
-  const testing::Workplace place;
-  place.file("robot.xml", text);
-  return load_file(
-      place.file("scene.hook", "World w { Include \"robot.xml\" (name = r" + arguments + "); }"));
+  return load_robot("robot.xml", text, arguments);
 }
 
 inline std::string mujoco(const std::string& inside) { return "<mujoco>\n" + inside + "</mujoco>"; }
