@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "studies/compare/comparison_rows.h"
 
@@ -45,13 +46,34 @@ std::optional<double> number(const std::string& text) {
 
 bool is_verdict(const std::string& column) { return column == "ok" || column.ends_with("_ok"); }
 
-/// Whether a column holds measurements: neither words about a row, nor closed forms and what
-/// follows from them.
-bool is_metric(const std::string& column) {
+/// Whether column `i` of a Wall's or a Matrix's table holds measurements: neither words about a row,
+/// nor closed forms and what follows from them.
+bool is_listed_metric(const std::vector<std::string>& header, std::size_t i) {
   static const std::set<std::string> others{"engine", "law",      "integrator", "settings", "unit",
-                                            "status", "expected", "error",      "allowed"};
-  const std::string name = column.substr(0, column.find(" ["));
-  return !others.contains(name) && !is_verdict(name) && !name.ends_with("_predicted");
+                                            "status", "expected", "error",      "allowed",  "ok"};
+  return !others.contains(header[i]);
+}
+
+/// Whether column `i` of a Study's table is a metric: its closed form and its verdict follow it.
+/// Its name does not decide, which the user may have chosen.
+bool is_metric_of_study(const std::vector<std::string>& header, std::size_t i) {
+  const std::string& title = header[i];
+  const std::size_t end = std::min(title.find(" ["), title.size());
+  const std::string name = title.substr(0, end);
+  return i + 2 < header.size() && header[i + 1] == name + "_predicted" + title.substr(end) &&
+         header[i + 2] == name + "_ok";
+}
+
+/// Titles of the metrics of a results.csv, matrix.csv or timing.csv.
+std::set<std::string> metrics_of(const std::vector<std::string>& header) {
+  static const std::set<std::pair<std::string, std::string>> no_study{{"scene", "truth"},
+                                                                      {"study", "regime"}};
+  const bool listed = header.size() > 1 && no_study.contains({header[0], header[1]});
+  std::set<std::string> titles;
+  for (std::size_t i = 0; i < header.size(); ++i)
+    if (listed ? is_listed_metric(header, i) : is_metric_of_study(header, i))
+      titles.insert(header[i]);
+  return titles;
 }
 
 bool differ(double first, double second, double tolerance) {
@@ -80,12 +102,13 @@ void add_value(MetricComparison& metric, const std::string& row, const std::stri
 void compare_tables(const CsvTable& first, const CsvTable& second, bool timing,
                     Comparison& comparison) {
   const RowJoin join = join_rows(first, second);
+  const std::set<std::string> metrics = metrics_of(first.header);
   const auto subject = std::ranges::find(first.header, "subject") - first.header.begin();
   for (auto i = static_cast<std::size_t>(subject) + 1; i < first.header.size(); ++i) {
     const std::string& title = first.header[i];
     const auto other = std::ranges::find(second.header, title);
     if (other == second.header.end()) {
-      if (is_metric(title)) comparison.only_first.push_back("metric " + title);
+      if (metrics.contains(title)) comparison.only_first.push_back("metric " + title);
       continue;
     }
     const auto k = static_cast<std::size_t>(other - second.header.begin());
@@ -95,15 +118,17 @@ void compare_tables(const CsvTable& first, const CsvTable& second, bool timing,
     for (const auto& [a, b] : join.pairs) {
       const std::string& left = first.rows[a][i];
       const std::string& right = second.rows[b][k];
-      if (is_metric(title))
+      if (metrics.contains(title))
         add_value(metric, join.first_labels[a], left, right, comparison.tolerance);
       else if (!timing && left != right && (is_verdict(title) || title == "status"))
         comparison.words.push_back({join.first_labels[a], title, left, right});
     }
-    if (is_metric(title)) comparison.metrics.push_back(std::move(metric));
+    if (metrics.contains(title)) comparison.metrics.push_back(std::move(metric));
   }
+  const std::set<std::string> second_metrics = metrics_of(second.header);
   for (const std::string& title : second.header)
-    if (is_metric(title) && std::ranges::find(first.header, title) == first.header.end() &&
+    if (second_metrics.contains(title) &&
+        std::ranges::find(first.header, title) == first.header.end() &&
         std::ranges::find(join.columns, title) == join.columns.end())
       comparison.only_second.push_back("metric " + title);
   if (timing) return;

@@ -55,6 +55,17 @@ output::Manifest manifest_of(const fs::path& folder) {
       folder.string(), output::Manifest::file_name));
 }
 
+/// Refuses the folder of a tuning: its tables are neither trajectories nor rows of runs.
+void check_kind(const RunFolder& run) {
+  const auto is_run_key = [](const auto& entry) { return entry.first == "run"; };
+  const auto& files = run.manifest.files;
+  if (std::ranges::any_of(run.manifest.about, is_run_key) || files.contains("results.csv") ||
+      files.contains("matrix.csv"))
+    return;
+  throw RunFolderError(
+      fmt::format("{} is neither a run nor a study; {}", run.path.string(), what_to_give));
+}
+
 /// Refuses a file that is not as the run left it which the manifest is of.
 void check_belongs(const RunFolder& run, const fs::path& file) {
   fs::path name = file.lexically_relative(run.path);
@@ -158,6 +169,7 @@ RunFolder read_run_folder(const fs::path& folder) {
   RunFolder run;
   run.path = folder;
   run.manifest = manifest_of(folder);
+  check_kind(run);
   for (const auto& [name, hash] : run.manifest.files)
     if (!hash.empty() && !fs::exists(folder / name))
       run.notes.push_back(name + ", which its run left, is not there");

@@ -129,6 +129,23 @@ TEST(Compare, StudiesAreJoinedByTheirSweepsNotByTheirRows) {
   EXPECT_EQ(found.count("changed[1].what"), 0u) << "at 25 deg it holds with both";
 }
 
+// The block slides with other accelerations, whatever its metrics are called.
+TEST(Compare, AMetricMayHaveTheNameOfAColumnOfAWall) {
+  const Workplace work;
+  const auto named = [](const std::string& name, double mu) {
+    std::string text = sliding("20 deg", mu);
+    return text.insert(text.find("  Truth"),
+                       "  Measure " + name + " { of = world.block.base.velocity.x; }\n");
+  };
+  for (const char* name : {"error", "expected", "allowed", "unit", "way_ok"}) {
+    study(work, "a", named(name, 0.2));
+    study(work, "b", named(name, 0.1));
+    const CommandResult result = work.hookpoint("compare a b");
+    EXPECT_NE(result.out.find("  " + std::string(name) + " [m/s]"), std::string::npos)
+        << result.out << result.err;
+  }
+}
+
 TEST(Compare, WhatIsNoFileIsNoTrajectory) {
   const Workplace work;
   ASSERT_EQ(run_into(work, "a", falling("9.81")).status, 0);
@@ -149,12 +166,18 @@ TEST(Compare, WhatIsNoRunIsToldWithAdvice) {
       work, "t",
       "Study s { scene = \"scenes/sloped_block.hook\"; duration = 0.1 s;\n"
       "  Sweep mu { values = 0.1, 0.2; } Measure creep_speed; Subject ours { engine = dts; } }\n");
+  work.file("tune.hook",
+            "Tune t { scene = \"scenes/sloped_block.hook\"; duration = 0.1 s; settle = 0.05 s;\n"
+            "  Vary mu { from = 0.1; to = 1; } Objective creep_speed { minimise; }\n"
+            "  population = 8; generations = 1; seeds = 1; samples = 0; }\n");
+  ASSERT_EQ(work.hookpoint("tune tune.hook --jobs 1 --out tune").status, 0);
   std::filesystem::create_directory(work.folder() / "empty");
   const std::pair<const char*, const char*> cases[] = {
       {"a nowhere", "there is no folder nowhere; compare takes the folder that"},
       {"a empty", "empty has no experiment.hook; compare takes the folder that"},
       {"a run.hook", "run.hook is a file"},
       {"a .", "holds several runs; compare one of ./a, ./s, ./t"},
+      {"tune tune", "tune is neither a run nor a study; compare takes the folder that"},
       {"a s", "a is a single run and s a study"},
       {"s t", "one run has several with ours; it varies mu, subject, and both vary subject only"},
       {"a a --tolerance -1", "--tolerance takes a number from 0 on"}};
