@@ -10,6 +10,7 @@
 #include "studies/results/selection.h"
 #include "studies/results/statistics.h"
 #include "text/number.h"
+#include "text/units.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -66,19 +67,34 @@ bool names_subject(const ClaimValue& value) {
   return value.take == ClaimTake::subject_of_least || value.take == ClaimTake::subject_of_largest;
 }
 
+/// "0.167 m/s"
+std::string with_unit(double number, const std::string& unit) {
+  constexpr int digits = 3;
+  return text::rounded(number, digits) + (unit.empty() ? "" : " " + unit);
+}
+
+/// The ratio of two numbers; in SI with its unit where they are in different units.
+std::string ratio_text(double number, const std::string& unit, double divisor,
+                       const std::string& divisor_unit) {
+  const auto over = text::parse_unit(unit), under = text::parse_unit(divisor_unit);
+  if (unit == divisor_unit || !over || !under) return with_unit(number / divisor, "");
+  const auto si = [](double value, const text::Unit& in) {
+    return value * in.numerator / in.denominator;
+  };
+  return with_unit(si(number, *over) / si(divisor, *under),
+                   text::unit_text(over->dimension / under->dimension));
+}
+
 std::string words_of(const StudyResult& study, const ClaimSpec& claim, const ClaimPart& part) {
   const ClaimValue& value = *part.value;
   if (names_subject(value)) return named_subject_of(study, claim, value);
   const auto number = number_of(study, claim, value);
   if (!number) return "";
-  constexpr int digits = 3;
-  if (part.divisor) {
-    const auto divisor = number_of(study, claim, *part.divisor);
-    const bool said = divisor && std::isfinite(*number / *divisor);
-    return said ? text::rounded(*number / *divisor, digits) : "";
-  }
   const std::string& unit = study.metrics[value.metric].unit;
-  return text::rounded(*number, digits) + (unit.empty() ? "" : " " + unit);
+  if (!part.divisor) return with_unit(*number, unit);
+  const auto divisor = number_of(study, claim, *part.divisor);
+  if (!divisor || !std::isfinite(*number / *divisor)) return "";
+  return ratio_text(*number, unit, *divisor, study.metrics[part.divisor->metric].unit);
 }
 
 std::string runs(int count) { return std::to_string(count) + (count == 1 ? " run" : " runs"); }

@@ -305,6 +305,16 @@ TEST_F(StudyMeasure, AClaimIsFilledInAndStandsWithItsTruths) {
   EXPECT_EQ(said_of(result, result.claims[0]).verdict, ClaimVerdict::unsaid);
 }
 
+// Over the level the block moves 2 mm, of which 0.001 m from 0.25 s to 0.75 s; x is above 1 mm at 50
+// of 101 instants.
+TEST_F(StudyMeasure, ARatioOfTwoUnitsIsInSI) {
+  const auto plan = this->plan(claiming("{way / moved} {moved / way} {way of ours / late of ours}",
+                                        "Only slope { values = 0 deg; }"));
+  ASSERT_TRUE(plan) << messages();
+  const StudyResult result = run(*plan, "out").result;
+  EXPECT_EQ(said_of(result, result.claims[0]).text, "2 0.5 0.00404 m");
+}
+
 TEST_F(StudyMeasure, AClaimTakesTheTruthsThatItNames) {
   const auto plan =
       this->plan(claiming("Far: {way}", "truth = far; Only slope { values = 0 deg; }"));
