@@ -197,6 +197,12 @@ class MeasureLoader {
     spec.to = block_.to.value;
     spec.level = block_.level.value;
     spec.band = block_.band.value;
+    if (block_.from && so_far_.duration > 0. && *block_.from >= so_far_.duration)
+      diagnostics_.error(block_.from.position(),
+                         fmt::format("a run ends at {} s{}: nothing would be measured from {} s on",
+                                     text::rounded(so_far_.duration, 6),
+                                     so_far_.quick ? " under --quick (`quick_duration`)" : "",
+                                     text::rounded(*block_.from, 6)));
     if (spec.to && *spec.to <= spec.from)
       diagnostics_.error(block_.to.position(),
                          "`to` must be later than `from`, which is `settle` unless it is given");

@@ -159,6 +159,8 @@ class PlotLoader {
     spec.color = *block_.colour;
     spec.color_unit = metric_unit(block_.colour, so_far_, diagnostics_);
     spec.y_unit = sweep_unit(block_.y);
+    if (spec.y == spec.x)
+      error(block_.y.position(), fmt::format("`{}` is the axis x already", spec.y));
     if (!block_.outline) return;
     spec.outline = *block_.outline;
     metric_unit(block_.outline, so_far_, diagnostics_);

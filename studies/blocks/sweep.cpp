@@ -28,7 +28,7 @@ struct SweepBlock {
   const Field* values = nullptr;
   Placed<double> from, to, step;
   Placed<double> count;
-  Spacing scale = Spacing::linear;
+  Placed<Spacing> scale = Spacing::linear;
   const Field* quick_values = nullptr;
 };
 
@@ -118,7 +118,7 @@ class SweepLoader {
     for (std::size_t i = 0; i < texts.size(); ++i) {
       taken.push_back(static_cast<double>(i));
       if (std::ranges::count(field.words, field.words[i]) > 1) {
-        diagnostics_.error(field.places[i], fmt::format("`{}` stands there twice", field.words[i]));
+        report_twice(field.places[i], field.words[i]);
         return std::nullopt;
       }
     }
@@ -150,6 +150,7 @@ class SweepLoader {
   SweepPlan load_numbers() {
     const Field* first = block_.values != nullptr ? block_.values : block_.from.field;
     const WrittenUnit unit = first == nullptr ? WrittenUnit{} : written_unit(*first);
+    check_one_form();
     SweepPlan sweep;
     sweep.column = {object_.name, unit.text, values(unit), {}};
     for (const double value : sweep.column.values) {
@@ -164,17 +165,53 @@ class SweepLoader {
     return sweep;
   }
 
+  /// Reports a field that another form of the Sweep would leave unread.
+  void check_one_form() {
+    const auto unread = [&](const Field* field, const char* read) {
+      if (field == nullptr) return;
+      diagnostics_.error(field->position, fmt::format("the Sweep has {}: leave `{}` out", read,
+                                                      field->schema->name));
+    };
+    if (block_.values != nullptr) {
+      for (const Field* field :
+           {block_.from.field, block_.to.field, block_.step.field, block_.count.field})
+        unread(field, "`values`");
+    } else if (block_.step) {
+      unread(block_.count.field, "a `step`");
+      if (*block_.scale == Spacing::logarithmic) unread(block_.scale.field, "a `step`");
+    }
+  }
+
   /// The values that run, in the unit.
   std::vector<double> values(const WrittenUnit& unit) {
-    if (so_far_.quick && block_.quick_values != nullptr)
-      return in_unit(block_.quick_values->numbers, unit);
+    if (so_far_.quick && block_.quick_values != nullptr) {
+      std::vector<double> quick = in_unit(block_.quick_values->numbers, unit);
+      check_distinct(quick, unit, block_.quick_values->position);
+      return quick;
+    }
+    const std::size_t errors = diagnostics_.error_count();
     std::vector<double> declared = declared_values(unit);
-    if (declared.empty())
+    if (declared.empty() && diagnostics_.error_count() == errors)
       diagnostics_.error(object_.position,
                          "a Sweep needs `values`, or `from`, `to` and a `step` > 0 (or a "
                          "`count`; on a log scale both ends > 0)");
+    check_distinct(declared, unit,
+                   block_.values != nullptr ? block_.values->position : object_.position);
     if (so_far_.quick && declared.size() > 2) return {declared.front(), declared.back()};
     return declared;
+  }
+
+  /// Reports the first value that occurs twice: its runs would count twice.
+  void check_distinct(const std::vector<double>& values, const WrittenUnit& unit,
+                      const language::Position& place) {
+    std::vector<double> sorted(values);
+    std::ranges::sort(sorted);
+    const auto twice = std::ranges::adjacent_find(sorted, same_value);
+    if (twice != sorted.end()) report_twice(place, unit.with_unit(*twice));
+  }
+
+  void report_twice(const language::Position& place, const std::string& value) {
+    diagnostics_.error(place, fmt::format("`{}` stands there twice", value));
   }
 
   /// All values that the block gives, in the unit; empty where it lacks some.
@@ -182,7 +219,7 @@ class SweepLoader {
     if (block_.values != nullptr) return in_unit(block_.values->numbers, unit);
     if (!block_.from || !block_.to) return {};
     const double from = unit.from_si(*block_.from), to = unit.from_si(*block_.to);
-    const bool logarithmic = block_.scale == Spacing::logarithmic;
+    const bool logarithmic = *block_.scale == Spacing::logarithmic;
     if (block_.step && *block_.step > 0. && to >= from) {
       const double step = unit.from_si(*block_.step);
       if (!may_have_values(block_.step, stepped_count(from, to, step))) return {};

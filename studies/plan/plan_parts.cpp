@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "language/names.h"
 #include "language/values/budget.h"
 #include "simulation/scene/load.h"
 #include "studies/blocks/block.h"
@@ -68,6 +69,45 @@ bool defines_metric(const Object* measure) { return measure_block(*measure).defi
 
 bool has_traces(const Object* cases) { return !cases->children_of("Trace").empty(); }
 
+/// Reports a Sweep or Cases whose name stands for something else in a Table, a Plot or results.csv.
+void check_swept_names(const Object& study, Diagnostics& diagnostics) {
+  for (const char* type : {"Sweep", "Cases"})
+    for (const Object* block : study.children_of(type))
+      if (block->name == "subject" || block->name == "status")
+        diagnostics.error(
+            block->position,
+            fmt::format("results.csv has another column `{}`: give the {} another "
+                        "name",
+                        block->name, block->type == "Sweep" ? "Param of the scene" : "Cases"));
+}
+
+/// The column of results.csv that a metric of this name would have a second time; "" for none.
+std::string taken_column(const StudyPlan& plan, const std::string& name) {
+  static const std::vector<std::string> no_metrics{"subject",  "engine", "law",   "integrator",
+                                                   "settings", "seed",   "status"};
+  if (language::contains(no_metrics, name)) return name;
+  for (const std::string& other : plan.metric_names())
+    for (const char* ending : {"_predicted", "_ok"}) {
+      if (name == other + ending) return name;
+      if (other == name + ending) return other;
+    }
+  return "";
+}
+
+/// Reports a Measure whose name another column of results.csv has, or an axis of a Plot.
+void check_name(const StudyPlan& plan, const Object& measure, Diagnostics& diagnostics) {
+  if (plan.sweep_index(measure.name) >= 0)
+    diagnostics.error(measure.position,
+                      fmt::format("`{}` is a Sweep or the Cases too: a Plot could not tell which "
+                                  "is meant; rename one of them",
+                                  measure.name));
+  else if (const std::string column = taken_column(plan, measure.name); !column.empty())
+    diagnostics.error(measure.position,
+                      fmt::format("results.csv has another column `{}`: give this metric another "
+                                  "name",
+                                  column));
+}
+
 void check_only_option(const StudyPlan& plan, const Object& study, Diagnostics& diagnostics) {
   const std::vector<std::string> names = plan.subject_names();
   for (const std::string& only : plan.only)
@@ -88,6 +128,7 @@ void plan_parts(StudyPlan& plan, const Object& study, const std::filesystem::pat
                 Diagnostics& diagnostics) {
   const auto sweeps = study.children_of("Sweep"), cases = study.children_of("Cases");
   const auto measures = study.children_of("Measure");
+  check_swept_names(study, diagnostics);
   for (const Object* block : sweeps) append(plan.grounds, load_grounds(*block, plan, diagnostics));
   for (const Object* block : sweeps)
     if (auto sweep = load_sweep(*block, plan, diagnostics))
@@ -113,7 +154,10 @@ void plan_parts(StudyPlan& plan, const Object& study, const std::filesystem::pat
   }
   SceneNames* const names = known ? &*known : nullptr;
   load_curves(study, names, plan, diagnostics);
-  for (const Object* block : measures) load_measure(*block, names, plan, diagnostics);
+  for (const Object* block : measures) {
+    check_name(plan, *block, diagnostics);
+    load_measure(*block, names, plan, diagnostics);
+  }
   if (names != nullptr && study_block(study).expects) load_expectations(*names, plan, diagnostics);
   for (const Object* block : study.children_of("Truth"))
     if (auto truth = load_truth(*block, plan, diagnostics))

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "language/names.h"
 #include "output/files/hash.h"
 #include "simulation/engine_interface/identity.h"
 #include "simulation/engine_interface/step_count.h"
@@ -15,7 +16,6 @@
 #include "studies/blocks/tune.h"
 #include "studies/results/selection.h"
 #include "studies/search/step_warnings.h"
-#include "text/number.h"
 
 namespace hookpoint::studies {
 namespace {
@@ -36,14 +36,18 @@ void check_ports(const Object& block, const MeasureBlock& measure, SceneNames& n
   }
 }
 
-/// A run lasts until the Measure begins.
-void check_from(const MeasureBlock& block, const StudyPlan& runs, Diagnostics& diagnostics) {
-  if (!block.from || *block.from < runs.duration) return;
-  diagnostics.error(block.from.position(),
-                    fmt::format("a run ends at {} s{}: nothing would be measured from {} s on",
-                                text::rounded(runs.duration, 6),
-                                runs.quick ? " under --quick (`quick_duration`)" : "",
-                                text::rounded(*block.from, 6)));
+/// Reports a Measure whose name another column of evaluations.csv has.
+void check_name(const TunePlan& plan, const Object& measure, Diagnostics& diagnostics) {
+  static const std::vector<std::string> no_metrics{"evaluation", "stage",     "generation",
+                                                   "feasible",   "violation", "first_seed",
+                                                   "seeds",      "status"};
+  const bool constant =
+      std::ranges::find(plan.varied, measure.name, &VariedConstant::name) != plan.varied.end();
+  if (constant || language::contains(no_metrics, measure.name))
+    diagnostics.error(measure.position,
+                      fmt::format("evaluations.csv has another column `{}`: give this metric "
+                                  "another name",
+                                  measure.name));
 }
 
 /// Metrics of the user's own, of ports of the scene `own`.
@@ -57,9 +61,9 @@ void add_measures(TunePlan& plan, const Object& tune, const LoadedScene& own,
     if (measure.predicted != nullptr)
       diagnostics.error(measure.predicted->position,
                         "a Tune compares nothing with a closed form: leave `predicted` out");
+    check_name(plan, *block, diagnostics);
     load_measure(*block, &names, plan.runs, diagnostics);
     check_ports(*block, measure, names, own.experiment, diagnostics);
-    check_from(measure, plan.runs, diagnostics);
   }
 }
 

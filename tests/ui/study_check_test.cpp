@@ -22,9 +22,12 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 TEST(Check, FindsInAStudyWhatStudyFinds) {
   const Workplace work;
   work.file("empty.hook", "Param slope = 0 deg; Material m { }");
+  work.file("named.hook", "Param subject = 1; World w { }");
   const std::pair<std::string, const char*> cases[] = {
       {replaced(block_study, "sloped_block", "slopped_block"), "no file \"scenes/slopped_block"},
       {replaced(block_study, "Sweep slope", "Sweep slop"), "did you mean `slope`?"},
+      {replaced(replaced(block_study, "scenes/sloped_block", "named"), "slope", "subject"),
+       "results.csv has another column `subject`"},
       {replaced(block_study, "creep_speed", "creep_sped"), "did you mean `creep_speed`?"},
       {replaced(block_study, "10 deg", "10 kg"), "in rad"},
       {replaced(block_study, "scenes/sloped_block", "empty"), "World"},
