@@ -39,7 +39,8 @@ VaryRange load_vary(const Object& object, Diagnostics& diagnostics) {
   if (!language::fits(to.dimension, from.dimension) ||
       !language::fits(from.dimension, to.dimension))
     diagnostics.error(to.position, "`from` and `to` are of different units");
-  VaryRange range{written_unit(from), 0., 1., block.scale == RangeScale::logarithmic};
+  VaryRange range{written_unit(from), 0.,         1., block.scale == RangeScale::logarithmic,
+                  from.position,      to.position};
   range.from = tidy(range.unit.from_si(*block.from));
   range.to = tidy(range.unit.from_si(*block.to));
   if (!(range.from < range.to))

@@ -15,6 +15,7 @@ struct VaryRange {
   WrittenUnit unit;
   double from = 0., to = 1.;
   bool logarithmic = false;
+  language::Position from_place, to_place;
 };
 
 void add_vary_class(language::Schema& schema);

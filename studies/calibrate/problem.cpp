@@ -293,6 +293,7 @@ void set_hash(const PlanSource& from, CalibrationPlan& plan, std::set<std::strin
 bool read_traces(const PlanSource& from, CalibrationPlan& plan, const VariedScene& scene) {
   const auto own = scene.load({}, 1, from.diagnostics);
   if (!own) return false;
+  check_ends(plan.varied, scene, from.diagnostics);
   const EngineEntry* engine = from.engines.find(own->experiment.engine);
   if (engine == nullptr || !engine->describe().found) {
     from.error(from.calibrate.position, from.engines.absence(own->experiment.engine));
@@ -369,10 +370,14 @@ std::optional<CalibrationPlan> make_calibration_plan(const Object& root, const O
   for (const Object* vary : calibrate.children_of("Vary"))
     if (auto constant = varied_constant(*vary, *scene, diagnostics))
       plan.varied.push_back(std::move(*constant));
+  refuse_fixed(calibrate, plan.varied, diagnostics);
+  for (const Object* subject : calibrate.children_of("Subject"))
+    refuse_fixed(*subject, plan.varied, diagnostics);
   const bool fits_offsets =
       std::ranges::any_of(calibrate.children_of("Trace"),
                           [](const Object* trace) { return !trace->children_of("Vary").empty(); });
-  if (plan.varied.empty() && !fits_offsets && calibrate.children_of("Cases").empty())
+  if (calibrate.children_of("Vary").empty() && !fits_offsets &&
+      calibrate.children_of("Cases").empty())
     from.error(calibrate.position, "a Calibrate needs a Vary: nothing is to be found");
   if (calibrate.children_of("Trace").empty() && calibrate.children_of("Cases").empty())
     from.error(calibrate.position, "a Calibrate needs a Trace: nothing was measured");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -39,7 +40,41 @@ std::optional<VariedConstant> varied_constant(const Object& block, const VariedS
 VariedConstant varied_range(const Object& block, Diagnostics& diagnostics) {
   VaryRange range = load_vary(block, diagnostics);
   return {block.name, ConstantPlace::parameter, std::move(range.unit), range.from,
-          range.to,   range.logarithmic};
+          range.to,   range.logarithmic,        range.from_place,      range.to_place};
+}
+
+void report_at_ends(const Diagnostics& found, std::span<const VariedConstant> constants,
+                    const VariedScene& scene, bool greatest, Diagnostics& diagnostics) {
+  for (const language::Diagnostic& diagnostic : found.all()) {
+    language::Position place = diagnostic.position;
+    for (const VariedConstant& constant : constants) {
+      const std::string trail = scene.trail_of(constant.name, constant.place);
+      if (place.file != nullptr && place.file->path == "<--set " + trail + ">")
+        place = greatest ? constant.to_place : constant.from_place;
+    }
+    diagnostics.report_again(diagnostic, place);
+  }
+}
+
+void check_ends(std::span<const VariedConstant> constants, const VariedScene& scene,
+                Diagnostics& diagnostics) {
+  for (const VariedConstant& constant : constants)
+    for (const bool greatest : {false, true}) {
+      const double end = greatest ? constant.to : constant.from;
+      Diagnostics found;
+      if (scene.load(std::vector{constant.setting(end)}, 1, found)) continue;
+      report_at_ends(found, {&constant, 1}, scene, greatest, diagnostics);
+      diagnostics.note(greatest ? constant.to_place : constant.from_place,
+                       fmt::format("with `{}` at this end of its range", constant.name));
+    }
+}
+
+void refuse_fixed(const Object& owner, std::span<const VariedConstant> constants,
+                  Diagnostics& diagnostics) {
+  for (const Object* fix : owner.children_of("Fix"))
+    if (std::ranges::find(constants, fix->name, &VariedConstant::name) != constants.end())
+      diagnostics.error(fix->position,
+                        fmt::format("`{}` is varied: it cannot be fixed as well", fix->name));
 }
 
 double VariedConstant::at(double share) const {

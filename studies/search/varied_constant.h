@@ -19,6 +19,7 @@ struct VariedConstant {
   WrittenUnit unit;
   double from = 0., to = 1.;
   bool logarithmic = false;
+  language::Position from_place = {}, to_place = {};  ///< of the ends of the range
 
   /// The value at a share 0..1 of the range.
   double at(double share) const;
@@ -34,6 +35,19 @@ std::optional<VariedConstant> varied_constant(const language::Object& block,
 
 /// The range of a Vary block, whatever it is of; errors go to `diagnostics`.
 VariedConstant varied_range(const language::Object& block, language::Diagnostics& diagnostics);
+
+/// Reports what was found with constants at the ends `greatest` of their ranges: what is wrong with
+/// the value of one stands there in its Vary block.
+void report_at_ends(const language::Diagnostics& found, std::span<const VariedConstant> constants,
+                    const VariedScene& scene, bool greatest, language::Diagnostics& diagnostics);
+
+/// Reports each end of a range that the scene does not take, the other constants left alone.
+void check_ends(std::span<const VariedConstant> constants, const VariedScene& scene,
+                language::Diagnostics& diagnostics);
+
+/// Reports the Fix blocks of `owner` that set one of the constants: a run would ignore them.
+void refuse_fixed(const language::Object& owner, std::span<const VariedConstant> constants,
+                  language::Diagnostics& diagnostics);
 
 /// `value` with six significant digits.
 double to_six_digits(double value);

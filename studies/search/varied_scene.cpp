@@ -168,6 +168,11 @@ std::optional<double> VariedScene::own_value(const ConstantSetting& constant) co
   return std::nullopt;
 }
 
+std::string VariedScene::trail_of(const std::string& name, ConstantPlace place) const {
+  if (place == ConstantPlace::material_field) return material_trail_ + "." + name;
+  return place == ConstantPlace::world_field ? world_ + "." + name : name;
+}
+
 ScenePlan VariedScene::under(std::span<const ConstantSetting> constants, std::uint64_t seed) const {
   std::vector<ConstantSetting> all(source_.settled);
   all.insert(all.end(), constants.begin(), constants.end());
@@ -178,7 +183,7 @@ ScenePlan VariedScene::under(std::span<const ConstantSetting> constants, std::ui
     if (constant.place == ConstantPlace::parameter)
       scene.give(parameters_, constant.name, constant.text);
     if (constant.place == ConstantPlace::material_field)
-      scene.set(material_trail_ + "." + constant.name, constant.text);
+      scene.set(trail_of(constant.name, constant.place), constant.text);
     if (constant.place == ConstantPlace::world_field) scene.set_world(constant.name, constant.text);
   }
   if (!world_.empty()) {

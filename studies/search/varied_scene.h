@@ -69,6 +69,9 @@ class VariedScene {
   /// nothing where they give none.
   std::optional<double> own_value(const ConstantSetting& constant) const;
 
+  /// What a constant is set by from outside: "stiffness", "world.floor.restitution".
+  std::string trail_of(const std::string& name, ConstantPlace place) const;
+
   /// The files and what is set in them for these constants. Every stream of random numbers, and a
   /// Param `seed` of the scene or the terrain, gets `seed`.
   ScenePlan under(std::span<const ConstantSetting> constants, std::uint64_t seed) const;

@@ -84,7 +84,7 @@ void set_search(TunePlan& plan, const TuneBlock& block) {
 
 void check_search(const TunePlan& plan, const Object& tune, const TuneBlock& block, double deltat,
                   Diagnostics& diagnostics) {
-  if (plan.varied.empty())
+  if (plan.varied.empty() && tune.children_of("Vary").empty())
     diagnostics.error(tune.position, "a Tune needs a Vary: nothing is to be tuned");
   if (plan.objectives.empty() && tune.children_of("Objective").empty())
     diagnostics.error(tune.position, "a Tune needs an Objective: nothing is wanted");
@@ -116,7 +116,9 @@ bool check_corner(const TunePlan& plan, const Object& tune, double share,
   std::vector<double> values;
   values.reserve(plan.varied.size());
   for (const VariedConstant& constant : plan.varied) values.push_back(constant.at(share));
-  const auto scene = plan.scene->load(plan.settings(values), 1, diagnostics);
+  Diagnostics found;
+  const auto scene = plan.scene->load(plan.settings(values), 1, found);
+  report_at_ends(found, plan.varied, *plan.scene, share == 1., diagnostics);
   const std::string where =
       std::string("with every constant at its ") + (share == 0. ? "least" : "greatest") + " value";
   if (scene)
@@ -203,6 +205,8 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
   for (const Object* vary : tune.children_of("Vary"))
     if (auto constant = varied_constant(*vary, *plan.scene, diagnostics))
       plan.varied.push_back(std::move(*constant));
+  refuse_fixed(tune, plan.varied, diagnostics);
+  if (subject != nullptr) refuse_fixed(*subject, plan.varied, diagnostics);
   add_measures(plan, tune, *own, diagnostics);
   for (const Object* block : tune.children_of("Objective"))
     if (auto objective = load_objective(*block, plan.runs, diagnostics))
