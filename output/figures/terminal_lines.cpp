@@ -1,5 +1,7 @@
 #include "output/figures/terminal_lines.h"
 
+#include <cctype>
+
 #include "output/figures/plot.h"
 #include "text/number.h"
 
@@ -8,13 +10,20 @@ namespace {
 
 const std::string svg_begin = "set terminal svg size ";
 
+/// `name` with _ for each character that gnuplot takes in no name of an SVG: "p[1]" as "p_1_".
+std::string svg_name(std::string name) {
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return name;
+}
+
 }  // namespace
 
 std::string svg_terminal(const std::string& name, double width, double height) {
   constexpr int digits = 6;
   return svg_begin + text::rounded(width, digits) + "," + text::rounded(height, digits) +
-         " enhanced font 'Helvetica,13' background '#ffffff' name " + gnuplot_quoted(name) +
-         "\nset output " + gnuplot_quoted(name + ".svg") + "\n";
+         " enhanced font 'Helvetica,13' background '#ffffff' name " +
+         gnuplot_quoted(svg_name(name)) + "\nset output " + gnuplot_quoted(name + ".svg") + "\n";
 }
 
 std::string with_pdf_terminal(const std::string& script, const std::string& name) {

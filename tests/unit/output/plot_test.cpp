@@ -176,6 +176,15 @@ TEST_F(Figures, AreTheSameBytesEachTime) {
     EXPECT_TRUE(fs::exists(folder_ / name));
 }
 
+// A Plot in a loop is called `creep[1]`.
+TEST_F(Figures, MayHaveANameWithAnIndex) {
+  Plot plot = sample();
+  plot.name = "creep[1]";
+  const PlotOutcome outcome = draw(plot, folder_);
+  EXPECT_TRUE(outcome.drawn) << outcome.message;
+  EXPECT_TRUE(fs::exists(folder_ / "creep[1].svg"));
+}
+
 TEST_F(Figures, DrawEveryPoint) {
   const PlotOutcome outcome = draw(sample(), folder_);
   ASSERT_TRUE(outcome.drawn) << outcome.message;
