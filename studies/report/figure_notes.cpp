@@ -91,4 +91,17 @@ std::string vanishing_note(const PlotSpec& spec, const std::vector<output::Plot>
   return text + ".";
 }
 
+std::string edge_note(const std::vector<output::Plot>& panels) {
+  const auto has_no_place = [](const output::Series& series) {
+    const auto not_positive = [](double x) { return x <= 0.; };
+    return !series.reference && (std::ranges::any_of(series.measured.x, not_positive) ||
+                                 std::ranges::any_of(series.unfinished, not_positive));
+  };
+  for (const output::Plot& panel : panels)
+    if (panel.x.logarithmic && std::ranges::any_of(panel.series, has_no_place))
+      return " At the left edge: " + panel.x.label +
+             " of 0 or less, for which a logarithmic axis has no place.";
+  return "";
+}
+
 }  // namespace hookpoint::studies

@@ -17,4 +17,8 @@ std::string coinciding_note(const std::vector<output::Plot>& panels);
 /// where it is not.
 std::string vanishing_note(const PlotSpec& spec, const std::vector<output::Plot>& panels);
 
+/// That points stand at the left edge because a logarithmic axis has no place for their x; "" where
+/// none does.
+std::string edge_note(const std::vector<output::Plot>& panels);
+
 }  // namespace hookpoint::studies

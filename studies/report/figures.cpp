@@ -294,7 +294,7 @@ std::string caption_of(const StudyResult& study, const PlotSpec& spec, const out
     caption += " In the grey strip: at most " + text::rounded(axes.y.floor, 2) + " " + axes.y.unit +
                ", which counts as zero.";
   if (spec.x == "time" && spec.log_y) caption += " The zero at time 0 is not drawn.";
-  caption += coinciding_note(plots) + vanishing_note(spec, plots);
+  caption += edge_note(plots) + coinciding_note(plots) + vanishing_note(spec, plots);
   std::string absent;
   for (const SubjectInfo& subject : study.subjects)
     if (!subject.available) absent += (absent.empty() ? "" : ", ") + subject.name;

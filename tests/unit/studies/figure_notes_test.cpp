@@ -65,5 +65,18 @@ TEST(FigureNotes, AFlatZeroIsToldWithItsReason) {
   EXPECT_EQ(vanishing_note(spec, {drop}), " All that is measured here is zero.");
 }
 
+TEST(FigureNotes, WhatALogarithmicAxisHasNoPlaceForStandsAtItsEdge) {
+  output::Plot plot = plot_of({curve("a", {1., 2.})});
+  plot.x.label = "slope";
+  EXPECT_EQ(edge_note({plot}), "");
+  plot.x.logarithmic = true;
+  EXPECT_EQ(edge_note({plot}),
+            " At the left edge: slope of 0 or less, for which a logarithmic axis has no place.");
+  plot.series[0].measured.x = {0.5, 1.};
+  EXPECT_EQ(edge_note({plot}), "");
+  plot.series[0].unfinished = {-1.};
+  EXPECT_NE(edge_note({plot_of({}), plot}), "");
+}
+
 }  // namespace
 }  // namespace hookpoint::studies
