@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <set>
 
 #include "apps/shared/engine_block.h"
 #include "apps/shared/installation.h"
@@ -77,8 +78,11 @@ Application::Application(Consent consent, ReceiveDiagnostics tell)
   for (const reference::Peer& peer : reference::known_peers())
     engines_.add(std::string(peer.name), {[&peer] { return peer.describe(); }, peer.make,
                                           peer.creep, peer.static_softness});
+  // As any file, one of a folder of HOOKPOINT_PATH stands in the place of the installation's.
+  std::set<std::filesystem::path> found;
   for (const std::filesystem::path& folder : search_path_)
-    for (const std::filesystem::path& file : engine_files_in(folder)) add_engines(file);
+    for (const std::filesystem::path& file : engine_files_in(folder))
+      if (found.insert(file.filename()).second) add_engines(file);
   add_vocabulary();
 }
 

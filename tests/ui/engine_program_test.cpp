@@ -278,6 +278,19 @@ TEST_F(EngineProgram, AnEngineStandsInAFileOfItsOwn) {
       << twice.err;
 }
 
+// A clone's configs have the engines of the installation too.
+TEST_F(EngineProgram, AFolderOfHookpointPathMayHaveAnInstalledOne) {
+  std::filesystem::create_directories(place.folder() / "clone/engines");
+  place.file("clone/engines/jolt.hook", block("jolt", "honest"));
+  place.file("run.hook", ball_on_slope);
+  setenv("HOOKPOINT_PATH", (place.folder() / "clone").c_str(), 1);
+  const CommandResult check = place.hookpoint("check run.hook");
+  const CommandResult run = place.hookpoint("run run.hook --for 5ms --allow-engines --engine jolt");
+  unsetenv("HOOKPOINT_PATH");
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_EQ(run.status, 0) << run.err;
+}
+
 TEST_F(EngineProgram, AFileOfEnginesMayIncludeAnother) {
   place.file("more.hook", block("second", "honest"));
   place.file("engines.hook", "Include \"more.hook\";\n" + block("mine", "honest"));
