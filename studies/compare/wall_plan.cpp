@@ -88,9 +88,8 @@ class WallPlanner : public RowPlanner {
     }
     for (const Object* fix : block.children_of("Fix")) {
       if (!language::contains(names, fix->name)) {
-        diagnostics_.error(fix->position,
-                           fmt::format("no Param of the scene is called `{}`{}", fix->name,
-                                       language::did_you_mean(fix->name, names)));
+        refuse(*fix, fmt::format("no Param of the scene is called `{}`{}", fix->name,
+                                 language::did_you_mean(fix->name, names)));
         return false;
       }
       evaluate.parameters[fix->name] = fixed_text(*fix);
@@ -102,7 +101,9 @@ class WallPlanner : public RowPlanner {
     const SubjectPlan& subject = plan_.subjects[index];
     language::EvaluateOptions evaluate;
     if (!set_parameters(block, path, index, evaluate)) return;
-    const auto plain = library_.evaluate(path, evaluate, diagnostics_);
+    Diagnostics found;
+    const auto plain = library_.evaluate(path, evaluate, found);
+    forward(block, found);
     if (!plain) return;
     const auto worlds = plain->children_of("World");
     if (worlds.empty()) return diagnostics_.error(block.position, "the scene has no World");
@@ -135,6 +136,15 @@ class WallPlanner : public RowPlanner {
     row.subject = static_cast<int>(index);
     row.scene = std::make_shared<const ScenePlan>(std::move(scene));
     add(std::move(row));
+  }
+
+  /// What was found in a scene's file, reported once however many subjects have it.
+  void forward(const Object& block, const Diagnostics& found) {
+    std::string all;
+    for (const language::Diagnostic& diagnostic : found.all()) all += diagnostic.message + "\n";
+    if (!refused_.insert(block.name + ": " + all).second) return;
+    for (const language::Diagnostic& diagnostic : found.all())
+      diagnostics_.report_again(diagnostic, diagnostic.position);
   }
 
   /// An error of a scene, told once however many subjects have it.
@@ -177,7 +187,9 @@ class WallPlanner : public RowPlanner {
   /// has a run. The errors of one row hide none of the next.
   Answer accept(LoadedRow& loaded, RowPlan& row) override {
     for (const language::Diagnostic& diagnostic : loaded.found.all()) {
-      if (diagnostic.severity != language::Severity::error) continue;
+      if (diagnostic.severity != language::Severity::error ||
+          !refused_.insert(block_->name + ": " + diagnostic.message).second)
+        continue;
       diagnostics_.error(diagnostic.position, diagnostic.message);
       diagnostics_.note(block_->position, "with subject = " + planned_subject(row).info.name);
     }

@@ -53,6 +53,25 @@ TEST(Check, FindsInAStudyWhatStudyFinds) {
   EXPECT_EQ(fine.err, "");
 }
 
+// The scene's file is evaluated for each subject.
+TEST(Check, ReportsAMistakeOfAScenesFileOnce) {
+  const Workplace work;
+  work.file("wrong.hook", "World w { gravty = 9.81; }");
+  work.file("late.hook",
+            "World w { duration = 1 s; Robot b { Base.mobile { mass = 1; inertia = 1, 1, 1, 0, 0, "
+            "0; } } }\n"
+            "Expect x { of = w.b.base.location.x; equals = 0 m; within = 1 m; from = 3 s; }\n");
+  for (const char* scene : {"wrong", "late"}) {
+    work.file("wall.hook",
+              "Wall w { Subject a { contact = hookpoint; } Subject b { contact = "
+              "lugre; integrator = rk4; }\n  Scene s { file = \"" +
+                  std::string(scene) + ".hook\"; } }\n");
+    const CommandResult check = work.hookpoint("check wall.hook");
+    EXPECT_EQ(check.status, 2);
+    EXPECT_EQ(count(check.err, "error: "), 1u) << check.err;
+  }
+}
+
 /// A project of its own with a material that the installation has too, and a scene on it.
 void make_clone(const Workplace& work) {
   for (const char* folder : {"clone", "clone/configs", "clone/configs/materials", "clone/mine",
