@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 #include "language/names.h"
 #include "studies/blocks/block.h"
@@ -80,15 +81,17 @@ std::string number_text(const Placed<double>& number, const std::string& unit) {
 /// "creep_speed equals predicted within 1 %, mu = 0.8 (ours)"
 std::string truth_words(const TruthBlock& block, const TruthPlan& truth, const StudyParts& so_far) {
   const std::string& unit = so_far.metrics[truth.metric].unit.text;
-  std::string words(so_far.metrics[truth.metric].definition->name);
-  if (truth.predicted) words += " equals predicted";
-  if (truth.value) words += " equals " + number_text(block.value, unit);
+  std::vector<std::string> parts;
+  if (truth.predicted) parts.emplace_back("equals predicted");
+  if (truth.value) parts.push_back("equals " + number_text(block.value, unit));
   if (truth.same_over >= 0)
-    words +=
-        " is the same over " + so_far.sweeps[static_cast<std::size_t>(truth.same_over)].column.name;
-  words += allowed_words(truth, number_text(block.within, unit));
-  if (truth.above) words += " is above " + number_text(block.above, unit);
-  if (truth.below) words += " is below " + number_text(block.below, unit);
+    parts.push_back("is the same over " +
+                    so_far.sweeps[static_cast<std::size_t>(truth.same_over)].column.name);
+  if (!parts.empty()) parts.back() += allowed_words(truth, number_text(block.within, unit));
+  if (truth.above) parts.push_back("is above " + number_text(block.above, unit));
+  if (truth.below) parts.push_back("is below " + number_text(block.below, unit));
+  std::string words(so_far.metrics[truth.metric].definition->name);
+  words += " " + language::join(parts, " and ");
   words += conditions_words(truth.only, so_far);
   if (block.subjects) words += " (" + language::join(*block.subjects, ", ") + ")";
   return words;
@@ -138,7 +141,7 @@ std::optional<TruthPlan> load_truth(const Object& object, const StudyParts& so_f
                      diagnostics);
   }
   truth.predicted = block.equals.value == Equals::predicted;
-  if (!truth.predicted && !truth.value && !truth.above && !truth.below && truth.same_over < 0)
+  if (!truth.predicted && !truth.value && !truth.above && !truth.below && !block.same_over)
     diagnostics.error(
         object.position,
         "a Truth needs `equals = predicted`, `value`, `above`, `below` or `same_over`");

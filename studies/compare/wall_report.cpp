@@ -278,11 +278,12 @@ std::string wall_terminal_table(const WallResult& wall, const TableStyle& style)
   std::string text = print_groups({&group}, style.color) + "\n" + failures(wall, style);
   for (const std::string& line : fault_lines(wall.idle))
     text += toned("  ✗ not judged: ", Tone::bad, style.color) + line + "\n";
-  return text +
-         fmt::format("{} of {} verdicts hold{}: {} truths of {} scenes under {} subjects{}\n",
-                     wall.passed(), wall.passed() + wall.failed(), idle_words_after(wall),
-                     wall.lines.size(), wall.scenes.size(), wall.subjects.size(),
-                     left_out_words(wall));
+  return text + fmt::format("{} of {} verdicts hold{}: {} of {} under {}{}\n", wall.passed(),
+                            wall.passed() + wall.failed(), idle_words_after(wall),
+                            language::count_of(wall.lines.size(), "truth"),
+                            language::count_of(wall.scenes.size(), "scene"),
+                            language::count_of(wall.subjects.size(), "subject"),
+                            left_out_words(wall));
 }
 
 output::LatexTable latex_wall_table(const WallResult& wall) {

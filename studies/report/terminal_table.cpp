@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "language/names.h"
 #include "output/files/csv.h"
 #include "studies/report/terminal_blocks.h"
 #include "studies/report/terminal_pivot.h"
@@ -279,8 +280,8 @@ std::string matched_list(const StudyResult& study, const TableStyle& style) {
 std::string counts(const StudySummary& summary, const std::vector<IdleBlock>& idle,
                    const TableStyle& style) {
   const auto& total = summary.total;
-  std::string text =
-      std::to_string(total.rows()) + " runs: " + std::to_string(total.finished) + " finished";
+  std::string text = language::count_of(static_cast<std::size_t>(total.rows()), "run") + ": " +
+                     std::to_string(total.finished) + " finished";
   if (total.expected > 0) text += ", " + std::to_string(total.expected) + " broke off as expected";
   if (total.stopped > 0)
     text +=

@@ -98,7 +98,7 @@ std::string constants_text(const MatchedLine& line) {
         (text.empty() ? "" : ", ") + constant.name + " " + constant.own + " → " + constant.chosen;
     if (!constant.unit.empty()) text += " " + constant.unit;
   }
-  return text.empty() ? "as hookpoint's" : text;
+  return text.empty() ? "the file's own" : text;
 }
 
 output::CsvTable matched_table(const StudyResult& study) {

@@ -25,7 +25,7 @@ struct MatchedLine {
 /// One a subject and material, in their order.
 std::vector<MatchedLine> matched_lines(const StudyResult& study);
 
-/// "normal_stiffness 2e+04 → 9810 N/m", joined by commas.
+/// "normal_stiffness 2e+04 → 9810 N/m", joined by commas; "the file's own" where none was chosen.
 std::string constants_text(const MatchedLine& line);
 
 /// A row a run, material and constant, in full precision.

@@ -141,6 +141,9 @@ TEST(MatchedGround, AStudyRestsAtOneDepthUnderAllLawsAndTellsWhatItChose) {
   const auto result = work.hookpoint("study study.hook --out out");
   EXPECT_EQ(result.status, 0) << result.out << result.err;
   EXPECT_NE(result.out.find("Ground matched to hookpoint's"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("at rest: the file's own (depth, stiffness, damping)"),
+            std::string::npos)
+      << result.out;
   EXPECT_NE(result.out.find("exponent 1.5 → 1"), std::string::npos) << result.out;
   EXPECT_NE(result.out.find("stiffness 1.5 times"), std::string::npos) << result.out;
   EXPECT_NE(work.read("out/matched.csv").find("hunt_crossley,m,14.715,0,exponent,,1.5,1,"),

@@ -388,7 +388,7 @@ TEST(Report, AStudyWithoutSweepsTruthsOrPlotsIsAPageToo) {
   row.metrics = {{1e-9, {}, {}}};
   study.rows = {row};
   EXPECT_TRUE(contains(report_html(study, {}, {}), "No truth is claimed."));
-  EXPECT_TRUE(contains(terminal_table(study), "no truth to hold"));
+  EXPECT_TRUE(contains(terminal_table(study), "1 run: 1 finished; no truth to hold"));
 }
 
 }  // namespace

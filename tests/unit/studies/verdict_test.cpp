@@ -242,7 +242,7 @@ TEST_F(StudyVerdict, ANumberIsToldInTheUnitThatTheUserWrote) {
   // 2 mm/s and a millimetre a second per radian: 2.0698 at 4 deg.
   EXPECT_NEAR(*result.rows[0].metrics[0].measured, 2.0698132, 1e-6);
   EXPECT_EQ(result.truths[0].words, "creep_speed equals 2 mm/s within 0.5 mm/s");
-  EXPECT_EQ(result.truths[1].words, "creep_speed is above 1 mm/s is below 3 mm/s");
+  EXPECT_EQ(result.truths[1].words, "creep_speed is above 1 mm/s and is below 3 mm/s");
   EXPECT_EQ(result.truths[0].passed, 3);
   EXPECT_EQ(result.truths[1].passed, 3);
   EXPECT_FALSE(
