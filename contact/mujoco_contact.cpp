@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/bisect.h"
+#include "math/bisect.h"
 
 namespace hookpoint::contact {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "contact/bisect.h"
+#include "math/bisect.h"
 
 namespace hookpoint::contact {
 

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "integrators/stepper.h"
+#include "math/bisect.h"
 
 namespace hookpoint::integrators {
 
@@ -71,11 +72,7 @@ class RungeKutta4 final : public Stepper {
       low = high;
       high += 0.01;
     }
-    for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (low + high);
-      (unstable(middle) ? high : low) = middle;
-    }
-    return low / modulus;
+    return bisect([&](double r) { return unstable(r) ? 1. : -1.; }, low, high) / modulus;
   }
 
  private:

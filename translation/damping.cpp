@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "contact/bisect.h"
 #include "contact/predictions.h"
+#include "math/bisect.h"
 
 namespace hookpoint::translation {
 namespace {
@@ -13,7 +13,7 @@ template <class Function>
 double damping_for(double e, Function restitution) {
   double high = 1.;
   while (restitution(high) > e && high < 1e12) high *= 2.;
-  return contact::bisect([&](double damping) { return e - restitution(damping); }, 0., high);
+  return bisect([&](double damping) { return e - restitution(damping); }, 0., high);
 }
 
 /// The energy at the deepest point comes back: e = exp(-z/s acos z), s = sqrt(1 - z^2), and its

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "contact/bisect.h"
+#include "math/bisect.h"
 
 namespace hookpoint::contact {
 

@@ -1,6 +1,6 @@
 #include "contact/laws/hunt_crossley.h"
 
-#include "contact/bisect.h"
+#include "math/bisect.h"
 
 namespace hookpoint::contact {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "contact/bisect.h"
+#include "math/bisect.h"
 #include "reference/steady_creep.h"
 
 namespace hookpoint::reference {
@@ -76,7 +76,7 @@ simulation::ClosedForm<MujocoRest> mujoco_rest(const MujocoLoad& load,
   // The impedance changes with depth one way, and the depth that carries the load the other way.
   const auto beyond = at(row.impedance[2]);
   const double deepest = std::max(surface->depth, beyond->depth);
-  return at(contact::bisect([&](double depth) { return depth - at(depth)->depth; }, 0., deepest));
+  return at(bisect([&](double depth) { return depth - at(depth)->depth; }, 0., deepest));
 }
 
 }  // namespace hookpoint::reference

@@ -1,6 +1,6 @@
 #include "reference/simbody/creep.h"
 
-#include "contact/bisect.h"
+#include "math/bisect.h"
 #include "reference/simbody/engine.h"
 #include "reference/simbody/settings.h"
 #include "reference/steady_creep.h"
@@ -9,8 +9,8 @@
 namespace hookpoint::reference {
 
 double simbody_stiction_speed(double share) {
-  return contact::bisect(
-      [share](double x) { return x * x * x * (10. + x * (6. * x - 15.)) - share; }, 0., 1.);
+  return bisect([share](double x) { return x * x * x * (10. + x * (6. * x - 15.)) - share; }, 0.,
+                1.);
 }
 
 simulation::ClosedForm<simulation::CreepVelocity> simbody_creep(

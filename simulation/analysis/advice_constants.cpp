@@ -5,7 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "contact/bisect.h"
+#include "math/bisect.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -19,8 +19,7 @@ double bisect_decades(const Function& f, double low, double high) {
   if (f(std::pow(10., low)) <= 0.) return std::pow(10., low);
   while (low < high && f(std::pow(10., low + 1.)) > 0.) low += 1.;
   if (low >= high) return std::pow(10., high);
-  return std::pow(10.,
-                  contact::bisect([&](double x) { return -f(std::pow(10., x)); }, low, low + 1.));
+  return std::pow(10., bisect([&](double x) { return -f(std::pow(10., x)); }, low, low + 1.));
 }
 
 }  // namespace

@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "contact/bisect.h"
 #include "contact/force_law.h"
 #include "contact/laws/stribeck.h"
+#include "math/bisect.h"
 #include "studies/measure/body_on_plane.h"
 #include "studies/predictions/driving_force.h"
 #include "studies/predictions/predictions.h"
@@ -36,7 +36,7 @@ double steepest_hold(const contact::LawDescription& law, const Constants& materi
   };
   const double friction = material.static_friction;
   if (!fast(friction)) return friction;
-  return contact::bisect([&](double tangent) { return fast(tangent) ? 1. : -1.; }, 0., friction);
+  return bisect([&](double tangent) { return fast(tangent) ? 1. : -1.; }, 0., friction);
 }
 
 /// Between impacts 2 u0/g apart nothing holds the body, so that it reaches 2 u0 tan.
@@ -96,8 +96,7 @@ class EngineCreep {
       const std::optional<double> speed = speed_at(tangent);
       if (!speed) continue;
       if (*speed <= onset_speed) return friction_;
-      return contact::bisect([&](double t) { return speed_at(t).value_or(0.) - onset_speed; }, 0.,
-                             tangent);
+      return bisect([&](double t) { return speed_at(t).value_or(0.) - onset_speed; }, 0., tangent);
     }
     return friction_;
   }

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "contact/bisect.h"
+#include "math/bisect.h"
 #include "translation/damping.h"
 #include "translation/impact.h"
 #include "translation/targets.h"
@@ -80,7 +80,7 @@ Behaviour behaviour_of(double stiffness, const Parameters& parameters, const Sit
     const auto gained = [&](double u) { return u - approach + at.deltat / at.mass * force(u); };
     const double out = std::max(-depth / at.deltat, dissipation > 0. ? -1. / dissipation : -1e300);
     if (out >= approach) return 0.;
-    return force(contact::bisect(gained, out, approach));
+    return force(bisect(gained, out, approach));
   });
   return result;
 }

@@ -1,7 +1,7 @@
 // The root of an increasing function, for the closed forms that have no explicit solution.
 #pragma once
 
-namespace hookpoint::contact {
+namespace hookpoint {
 
 /// Where `f`, negative at `low` and not at `high`, changes sign: to the last bit that bisection can
 /// give.
@@ -15,4 +15,4 @@ double bisect(Function f, double low, double high) {
   return middle;
 }
 
-}  // namespace hookpoint::contact
+}  // namespace hookpoint
