@@ -282,6 +282,7 @@ TEST_F(EngineProgram, AnEngineStandsInAFileOfItsOwn) {
 TEST_F(EngineProgram, AFolderOfHookpointPathMayHaveAnInstalledOne) {
   std::filesystem::create_directories(place.folder() / "clone/engines");
   place.file("clone/engines/jolt.hook", block("jolt", "honest"));
+  place.file("engines.hook", block("mine", "honest"));
   place.file("run.hook", ball_on_slope);
   setenv("HOOKPOINT_PATH", (place.folder() / "clone").c_str(), 1);
   const CommandResult check = place.hookpoint("check run.hook");

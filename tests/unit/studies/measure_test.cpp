@@ -305,14 +305,14 @@ TEST_F(StudyMeasure, AClaimIsFilledInAndStandsWithItsTruths) {
   EXPECT_EQ(said_of(result, result.claims[0]).verdict, ClaimVerdict::unsaid);
 }
 
-// Over the level the block moves 2 mm, of which 0.001 m from 0.25 s to 0.75 s; x is above 1 mm at 50
-// of 101 instants.
+// Over the level the block moves 2 mm at a height of 50 mm; from 0.25 s to 0.75 s its distance grows by
+// (1.5^2 - 0.5^2) mm^2 / (2 * 50 mm) = 0.02 mm. x is above 1 mm at 50 of 101 instants.
 TEST_F(StudyMeasure, ARatioOfTwoUnitsIsInSI) {
   const auto plan = this->plan(claiming("{way / moved} {moved / way} {way of ours / late of ours}",
                                         "Only slope { values = 0 deg; }"));
   ASSERT_TRUE(plan) << messages();
   const StudyResult result = run(*plan, "out").result;
-  EXPECT_EQ(said_of(result, result.claims[0]).text, "2 0.5 0.00404 m");
+  EXPECT_EQ(said_of(result, result.claims[0]).text, "100 0.01 0.00404 m");
 }
 
 TEST_F(StudyMeasure, AClaimTakesTheTruthsThatItNames) {
