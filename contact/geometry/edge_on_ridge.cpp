@@ -20,26 +20,26 @@ double square(double a) { return a * a; }
 
 std::optional<EdgeContact> edge_on_ridge(const Ridge& ridge, const BodyEdge& edge, double reach,
                                          double most_depth) {
-  const Vector3d way = edge.to - edge.from;
-  const double length = norm(way);
-  if (length == 0.) return std::nullopt;
-  const Vector3d e = (1. / length) * way;
+  const Vector3d& e = edge.along;
+  const double length = edge.length;
   const double cosine = dot(e, ridge.along);
   const double sine_2 = 1. - cosine * cosine;
   constexpr double parallel = 1e-6;
-  if (sine_2 < parallel) return std::nullopt;
+  if (length == 0. || sine_2 < parallel) return std::nullopt;
 
-  // The places of the two lines that are nearest to each other.
+  // The places of the two lines that are nearest to each other, times sin^2.
   const Vector3d between_lines = ridge.point - edge.from;
   const double of_edge = dot(between_lines, e), of_ridge = dot(between_lines, ridge.along);
-  double s = (of_edge - cosine * of_ridge) / sine_2;
-  double t = (cosine * of_edge - of_ridge) / sine_2;
-  const auto is_past_an_end = [&] {
-    return s < -edge_width || s > length + edge_width || t < ridge.from - edge_width ||
-           t > ridge.to + edge_width;
+  const double s_sine_2 = of_edge - cosine * of_ridge, t_sine_2 = cosine * of_edge - of_ridge;
+  const auto is_past_an_end = [&](double at_edge, double at_ridge, double scale) {
+    return at_edge < scale * -edge_width || at_edge > scale * (length + edge_width) ||
+           at_ridge < scale * (ridge.from - edge_width) ||
+           at_ridge > scale * (ridge.to + edge_width);
   };
+  // Most edges of two bodies pass each other by: those leave before the division.
+  if (edge.taper == 0. && is_past_an_end(s_sine_2, t_sine_2, sine_2)) return std::nullopt;
+  double s = s_sine_2 / sine_2, t = t_sine_2 / sine_2;
   const bool round = edge.radius > 0. || edge.taper != 0.;
-  if (edge.taper == 0. && is_past_an_end()) return std::nullopt;
 
   Vector3d normal = (1. / std::sqrt(sine_2)) * cross(e, ridge.along);
   if (dot(normal, ridge.normals[0] + ridge.normals[1]) < 0.) normal = -normal;
@@ -51,7 +51,7 @@ std::optional<EdgeContact> edge_on_ridge(const Ridge& ridge, const BodyEdge& edg
     s += edge.taper * nearest / std::sqrt(sine_2 * rest_2);
     t = dot(edge.from + s * e - ridge.point, ridge.along);
     normal = unit(edge.from + s * e - ridge.point - t * ridge.along);
-    if (is_past_an_end()) return std::nullopt;
+    if (is_past_an_end(s, t, 1.)) return std::nullopt;
   }
   EdgeContact contact;
   const Vector3d on_edge = edge.from + s * e;

@@ -12,7 +12,21 @@ namespace hookpoint::contact {
 /// A straight edge from `from` to `to`, rounded with `radius`: 0 of a polyhedron's, r of a capsule's
 /// axis.
 struct BodyEdge {
+  BodyEdge(const Vector3d& begin, const Vector3d& end, double rounding,
+           const std::array<Vector3d, 2>& face_normals,
+           const std::array<Vector3d, 2>& face_outwards, double widening = 0.)
+      : from(begin),
+        to(end),
+        length(norm(end - begin)),
+        along(length > 0. ? (1. / length) * (end - begin) : Vector3d{}),
+        radius(rounding),
+        normals(face_normals),
+        outwards(face_outwards),
+        taper(widening) {}
+
   Vector3d from, to;   ///< [m]
+  double length;       ///< [m]
+  Vector3d along;      ///< unit, from `from` to `to`; 0 without length
   double radius = 0.;  ///< [m]
   /// Of the two faces that meet there, as Ridge has them; of a round one none.
   std::array<Vector3d, 2> normals, outwards;

@@ -1,8 +1,10 @@
 #include "contact/geometry/polyhedron.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "contact/geometry/border.h"
@@ -23,10 +25,23 @@ std::vector<Polyhedron::Loop> small_loops(const std::vector<Polyhedron::Loop>& l
   return small;
 }
 
+/// The box about places and what counts as on them.
+Region region_of(std::span<const Vector3d> places) {
+  Region region{places[0], places[0]};
+  for (const Vector3d& p : places) {
+    region.low = {std::min(region.low.x, p.x), std::min(region.low.y, p.y),
+                  std::min(region.low.z, p.z)};
+    region.high = {std::max(region.high.x, p.x), std::max(region.high.y, p.y),
+                   std::max(region.high.z, p.z)};
+  }
+  const Vector3d width{edge_width, edge_width, edge_width};
+  return {region.low - width, region.high + width};
+}
+
 }  // namespace
 
 Polyhedron::Polyhedron(std::vector<Vector3d> vertices, const std::vector<Loop>& loops)
-    : vertices_(std::move(vertices)) {
+    : vertices_(std::move(vertices)), bounds_(region_of(vertices_)) {
   const std::vector<Loop> polygons = small_loops(loops);
   std::map<std::pair<std::size_t, std::size_t>, std::int64_t> face_of_edge;
   for (const Loop& loop : polygons) {
@@ -65,6 +80,7 @@ Polyhedron::Polyhedron(std::vector<Vector3d> vertices, const std::vector<Loop>& 
       ridge.normals = {face.normal, normal_beyond};
       ridge.outwards = {edge.outward, unit(cross(normal_beyond, along))};
       ridges_.push_back(ridge);
+      ridge_regions_.push_back(region_of(std::array{vertices_[from], vertices_[to]}));
       ends_.push_back({from, to});
     }
   }
@@ -124,8 +140,9 @@ void Polyhedron::faces(const Region& /*region*/, Visit<Face> visit) const {
   for (const Face& face : faces_) visit(face);
 }
 
-void Polyhedron::ridges(const Region& /*region*/, Visit<Ridge> visit) const {
-  for (const Ridge& ridge : ridges_) visit(ridge);
+void Polyhedron::ridges(const Region& region, Visit<Ridge> visit) const {
+  for (std::size_t i = 0; i < ridges_.size(); ++i)
+    if (overlap(ridge_regions_[i], region)) visit(ridges_[i]);
 }
 
 void Polyhedron::corners(const Region& /*region*/, Visit<Corner> visit) const {

@@ -21,6 +21,7 @@ class Polyhedron final : public Surface {
   static const std::vector<Loop>& box_loops();
 
   bool contains(const Vector3d& place) const override;
+  bool is_clear_of(const Region& region) const override { return !overlap(bounds_, region); }
   Face face(std::int64_t id) const override { return faces_[static_cast<std::size_t>(id)]; }
   Face nearest_face(const Vector3d& inside) const override;
   std::int64_t face_over(const Vector3d& inside, const Vector3d& outward) const override;
@@ -35,9 +36,11 @@ class Polyhedron final : public Surface {
 
  private:
   std::vector<Vector3d> vertices_;
+  Region bounds_;
   double thickness_ = 0.;  ///< least distance of a vertex from a face opposite to it [m]
   std::vector<Face> faces_;
   std::vector<Ridge> ridges_;
+  std::vector<Region> ridge_regions_;  ///< the box about each
   std::vector<std::array<std::size_t, 2>> ends_;
   std::vector<Corner> corners_;
 };

@@ -79,6 +79,10 @@ inline Region region_about(const Vector3d& center, double reach) {
   const Vector3d r{reach, reach, reach};
   return {center - r, center + r};
 }
+inline bool overlap(const Region& a, const Region& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
+         a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
 
 /// What a surface shows of a kind of feature: a callable, referred to, not owned.
 template <class Feature>

@@ -29,11 +29,6 @@ std::size_t part_of(std::int64_t number) {
   return static_cast<std::size_t>(number % of_a_ridge / part_size);
 }
 
-bool overlap(const contact::Region& a, const contact::Region& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-         a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
 /// Of a box along the axes of one frame, the box along the axes of another that holds it. `R` and `p`:
 /// from the first to the second.
 contact::Region turned(const contact::Region& box, const Matrix3d& R, const Vector3d& p) {
@@ -324,14 +319,15 @@ void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_
                                      std::int64_t other, int material_b) {
   const ObjectMotion& frame = motions_[b];
   const Vector3d center = motions_[a].to_world(ball.center);
-  const ContactKey key{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), feature, other};
-  const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(ball.center));
   const Vector3d outward = transpose_times(frame.R_WB, motions_[a].R_WB * ball.outward);
   Vector3d place_in_b = frame.to_object(center), lift;
   if (memory_->stays_outside()) {
     lift = lift_off(surface, place_in_b, ball.is_corner ? outward : Vector3d{});
     place_in_b += lift;
   }
+  if (surface.is_clear_of(contact::region_about(place_in_b, ball.radius + reach_))) return;
+  const ContactKey key{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), feature, other};
+  const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(ball.center));
   contact::Holding held = memory_->holding(key);
   if (held.count == 0 && ball.radius == 0. && surface.contains(place_in_b))
     held = taken_over(surface, a, b, before, place_in_b, ball.material,
