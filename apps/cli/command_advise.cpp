@@ -22,16 +22,18 @@ std::string step_text(double step) { return std::isfinite(step) ? text::rounded(
 
 void print_ground(const GroundAdvice& ground) {
   fmt::print(
-      "robot {} on {}: {:.4g} N and {:.4g} kg on each of {} points (effective mass of an impact "
-      "at one, joints free: {:.4g} kg)\n",
-      ground.robot, ground.material, ground.load, ground.mass, ground.points, ground.least_mass);
+      "robot {} on {}: {} N and {} kg on each of {} points (effective mass of an impact "
+      "at one, joints free: {} kg)\n",
+      ground.robot, ground.material, text::rounded(ground.load), text::rounded(ground.mass),
+      ground.points, text::rounded(ground.least_mass));
   fmt::print("  {:<22} {:>12} {:>12}  {:<7} {}\n", "constant", "present", "advised", "unit",
              "so that");
   for (const simulation::ConstantAdvice& constant : ground.constants)
     fmt::print("  {:<22} {:>12} {:>12}  {:<7} {}\n", constant.name, text::rounded(constant.present),
                text::rounded(constant.advised), constant.unit, constant.reason);
   fmt::print(
-      "  a foot keeps its hook while the body bobs below {} m/s (advised constants: {} m/s)\n",
+      "  points keep their hooks while the body moves up and down below {} m/s (advised constants: {} "
+      "m/s)\n",
       text::rounded(ground.survival_present, 3), text::rounded(ground.survival_advised, 3));
 }
 

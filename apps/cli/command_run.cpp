@@ -42,6 +42,7 @@ int repeat(const RunArguments& arguments) {
     return wrong_input;
   }
   tell_windows(loader.root(), arguments.file);
+  tell_unread(loader.root(), first->experiment);
   tell_stability(first->experiment);
   const std::filesystem::path folder =
       arguments.out.value_or(std::filesystem::path("runs") / first->experiment.world);
@@ -106,6 +107,7 @@ int run(const RunArguments& arguments) {
         {folder, arguments.record, language::print(*root), arguments.out.has_value(),
          application.describe_engine(*experiment), language::sources_of(*root)});
     tell_windows(*root, arguments.file);
+    tell_unread(*root, *experiment);
     tell_stability(*experiment);
     const std::int64_t steps = simulation::step_count(experiment->duration, experiment->deltat);
     // Truths are about the scene's own duration.

@@ -80,9 +80,8 @@ class Watched {
 
   view::Subjects& subjects() { return *all_; }
 
-  std::vector<view::FileField> fields() const {
-    return view::file_fields(loaders_.front()->root());
-  }
+  const language::Object& root() const { return loaders_.front()->root(); }
+  std::vector<view::FileField> fields() const { return view::file_fields(root()); }
 
   /// The experiment with what was changed, as a file of its own, its name and its text.
   std::optional<std::pair<std::string, std::string>> patch(const LiveRun& run,
@@ -194,6 +193,7 @@ int view(const RunArguments& arguments) {
     const InterruptGuard guard;
     Watched watched(arguments);
     LiveRun& run = watched.subjects().run();
+    tell_unread(watched.root(), run.experiment());
     tell_stability(run.experiment());
     view::Server server({arguments.view.bind, arguments.view.port,
                          arguments.view.token.value_or(view::fresh_token())},

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <map>
+#include <set>
 #include <utility>
 
 #include "contact/force_law.h"
@@ -124,6 +125,20 @@ std::vector<std::pair<std::string, const ClassSchema*>> classes_where(
 
 std::string last_word(const std::string& name) { return name.substr(name.rfind('.') + 1); }
 
+/// What to look up in the place of a `name` that is none of `names`.
+std::string instead_of(const std::string& name, const std::vector<std::string>& names) {
+  if (const std::string nearest = language::nearest_name(name, names); !nearest.empty())
+    return "; did you mean `" + nearest + "`?";
+  constexpr std::size_t shortest = 3, most = 12;
+  std::set<std::string> longer;
+  for (const std::string& one : names)
+    if (name.size() >= shortest && one.find(name) != std::string::npos) longer.insert(one);
+  if (!longer.empty() && longer.size() <= most)
+    return fmt::format("; it is part of {}", fmt::join(longer, ", "));
+  return "; `hookpoint describe` lists the classes, `hookpoint engines` the laws, integrators and "
+         "engines";
+}
+
 }  // namespace
 
 std::vector<std::string> described(const application::Application& application,
@@ -158,11 +173,8 @@ std::vector<std::string> described(const application::Application& application,
     if (full != entry.name) names.push_back(entry.name);
   }
   for (const Entry& entry : entries) names.push_back(entry.name);
-  const std::string nearest = language::nearest_name(name, names);
   problem = "there is no class, metric, contact law, integrator, engine or setting `" + name + "`" +
-            (nearest.empty() ? "; `hookpoint describe` lists the classes, `hookpoint engines` the "
-                               "laws, integrators and engines"
-                             : "; did you mean `" + nearest + "`?");
+            instead_of(name, names);
   return {};
 }
 

@@ -1,5 +1,8 @@
 // The command line: it fills plain arguments and hands them to a command. This file and the manual
 // that is made from its table see CLI11.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
@@ -107,6 +110,16 @@ void add_consent(CLI::App* command, application::Consent& consent) {
                     "HOOKPOINT_TRUSTED_ENGINES");
 }
 
+/// Checks for one of `words`.
+std::function<std::string(const std::string&)> is_one_of(const std::string& what,
+                                                         const std::vector<std::string>& words) {
+  return [what, words](const std::string& text) {
+    return std::ranges::count(words, text) > 0
+               ? std::string()
+               : fmt::format("{} is one of {}, not `{}`", what, fmt::join(words, ", "), text);
+  };
+}
+
 void add_movie_option(CLI::App* command, RunArguments& arguments) {
   command
       ->add_option("--movie", arguments.movie,
@@ -173,7 +186,7 @@ void add_film(CLI::App* command, FilmArguments& arguments) {
       ->type_name("WIDTHxHEIGHT")
       ->needs(film);
   command->add_option("--quality", arguments.quality, "of the film's pictures (default: high)")
-      ->check(CLI::IsMember({"low", "medium", "high"}))
+      ->check(is_one_of("--quality", {"low", "medium", "high"}))
       ->type_name("low|medium|high")
       ->needs(film);
   command->add_option("--caption", arguments.caption, "what stands before the time in a film")
@@ -640,7 +653,7 @@ void add_beginnings(CLI::App& app, Request& request) {
                   [&] { return new_file(request.new_); });
   new_app->add_option("KIND", request.new_.kind, "robot, study or controller")
       ->required()
-      ->check(CLI::IsMember({"robot", "study", "controller"}));
+      ->check(is_one_of("KIND", {"robot", "study", "controller"}));
   new_app->add_option("NAME", request.new_.name, "of what it holds, and of the file")->required();
   add_command(app, request, "cite", "what to cite, as BibTeX", [&] { return cite(request.folder); })
       ->add_option("DIR", request.folder,

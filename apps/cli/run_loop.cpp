@@ -11,6 +11,7 @@
 #include "apps/cli/exit_status.h"
 #include "apps/cli/run_watch.h"
 #include "apps/shared/application.h"
+#include "apps/shared/short_forms.h"
 #include "contact/force_law.h"
 #include "simulation/analysis/automatic_step.h"
 #include "simulation/analysis/stability.h"
@@ -88,6 +89,16 @@ void tell_stability(const Experiment& experiment) {
         "steady friction at once\n",
         experiment.contact, bound.resolved_speed);
   }
+}
+
+void tell_unread(const language::Object& root, const Experiment& experiment) {
+  if (experiment.engine == "dts") return;
+  const language::Object& world = *root.children_of("World").front();
+  for (const application::ShortForm& form : application::short_forms)
+    if (form.of_dts && world.given(form.field) && world.find(form.field)->from_outside)
+      std::cerr << fmt::format(
+          "hookpoint: note: `{}` is not read: it is of engine dts, and {} has its own\n",
+          form.field, experiment.engine);
 }
 
 void print_summary(const Experiment& experiment, const WorldState& state) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "language/tree/object.h"
 #include "simulation/run/expectation.h"
 #include "simulation/run/live_run.h"
 #include "simulation/run/run_files.h"
@@ -16,6 +17,9 @@ namespace hookpoint::cli {
 
 /// The largest stable step, and a warning when the experiment's is larger, on stderr.
 void tell_stability(const simulation::Experiment& experiment);
+
+/// Notes on stderr: options and fields that were set for this run and that its engine does not read.
+void tell_unread(const language::Object& root, const simulation::Experiment& experiment);
 
 /// Rows from the world's present step to step `last`, or to where the run ends; `expectations`, if
 /// any, see every one. Returns the exit status; whatever went wrong has been said.

@@ -5,6 +5,18 @@
 #include "text/display.h"
 
 namespace hookpoint::language {
+namespace {
+
+/// Whether the text is of another kind of file, of which each line would be wrong: under another ending
+/// its first character is one that no name or comment begins with.
+bool is_foreign(const SourceFile& source) {
+  constexpr std::string_view others = "#<>[](){}|!\"'$%&*+-.,:;=?@\\^`~0123456789";
+  if (source.path.ends_with(".hook")) return false;
+  const std::size_t first = source.text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && others.find(source.text[first]) != std::string_view::npos;
+}
+
+}  // namespace
 
 Parser::Parser(ParsedFile& file) : file_(file), syntax_(file.syntax) {
   if (check_text(file.source, file.report)) {
@@ -138,7 +150,14 @@ Detail& Parser::detail_of(Item& item) {
   return syntax_.details.emplace_back();
 }
 
-void parse(ParsedFile& file) { Parser(file).parse_file(); }
+void parse(ParsedFile& file) {
+  if (is_foreign(file.source)) {
+    file.report.error({&file.source, file.source.text.find_first_not_of(" \t\r\n"), 1},
+                      "this is no configuration: expected a name, such as `World`");
+  } else {
+    Parser(file).parse_file();
+  }
+}
 
 void parse_override(ParsedFile& file) { Parser(file).parse_override(); }
 

@@ -79,11 +79,16 @@ bool Parser::parse_and() {
 }
 
 bool Parser::parse_comparison() {
+  const auto at_comparison = [&] {
+    return token().kind >= TokenKind::less && token().kind <= TokenKind::not_equal;
+  };
   if (!parse_sum()) return false;
-  if (token().kind < TokenKind::less || token().kind > TokenKind::not_equal) return true;
+  if (!at_comparison()) return true;
   const Token operation = token();
   ++at_;
   if (!parse_sum()) return false;
+  if (at_comparison())
+    return fail(token(), "comparisons do not chain: write `a < b && b < c`, or parentheses");
   const auto index = static_cast<int>(operation.kind) - static_cast<int>(TokenKind::less);
   apply(static_cast<Operator>(static_cast<int>(Operator::less) + index), operation);
   return true;

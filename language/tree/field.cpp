@@ -355,7 +355,8 @@ bool FieldMaker::make_choice() {
   if (std::ranges::find(schema_.choices, value.text) == schema_.choices.end()) {
     const std::string instead = instead_of(value.text);
     return fail(value.position,
-                quoted(value.text) + " is no " + schema_.name + ": " + choices_text() +
+                quoted(value.text) + " is no value of " + quoted(schema_.name) + ": " +
+                    choices_text() +
                     (instead.empty() ? did_you_mean(value.text, schema_.choices) : "; " + instead));
   }
   field_.words.push_back(value.text);

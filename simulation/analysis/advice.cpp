@@ -13,6 +13,7 @@
 #include "simulation/analysis/stability.h"
 #include "simulation/engine_interface/engine.h"
 #include "simulation/experiment/ground.h"
+#include "text/number.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -88,9 +89,9 @@ bool advise_depth(GroundAdvice& ground, const contact::LawDescription& law,
         ground.advised.exponential_force,
         fmt::format("the ground carries {:.3g} % of that where it begins", 100. * surface_share));
   }
-  advise_constant(
-      ground, present, Aim::depth, *stiffness, ground.advised.*stiffness->member,
-      fmt::format("{:.4g} N rest {:.3g} mm deep", ground.load, 1e3 * ground.wanted_depth));
+  advise_constant(ground, present, Aim::depth, *stiffness, ground.advised.*stiffness->member,
+                  fmt::format("{} N rest {:.3g} mm deep", text::rounded(ground.load),
+                              1e3 * ground.wanted_depth));
   return true;
 }
 
@@ -103,8 +104,8 @@ void advise_constants(GroundAdvice& ground, const contact::LawDescription& law,
     advise_constant(ground, present, Aim::rebound, *damping,
                     damping_for_rebound(law, *damping, ground.mass, speed, ground.wanted_rebound,
                                         ground.advised),
-                    fmt::format("{:.4g} kg rebound with {:.3g} of the speed", ground.mass,
-                                ground.wanted_rebound));
+                    fmt::format("{} kg rebound with {:.3g} of the speed",
+                                text::rounded(ground.mass), ground.wanted_rebound));
   }
   if (law.reads(&contact::Constants::tangential_stiffness))
     advise_constant(ground, present, Aim::friction, field_named("tangential_stiffness"),

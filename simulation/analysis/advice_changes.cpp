@@ -9,6 +9,7 @@
 #include "contact/force_law.h"
 #include "simulation/analysis/stability.h"
 #include "simulation/experiment/material_fields.h"
+#include "text/number.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -109,9 +110,9 @@ std::string lowered(const Experiment& experiment, const std::vector<Place>& plac
   std::string text;
   for (const Place& place : places) {
     const MaterialSpec& material = experiment.materials[place.material];
-    text += fmt::format("{}{}.{} = {:.3g} {}", text.empty() ? "" : " and ", material.name,
-                        place.field.name, factor * material.constants.*place.field.member,
-                        place.field.unit);
+    text += fmt::format(
+        "{}{}.{} = {} {}", text.empty() ? "" : " and ", material.name, place.field.name,
+        text::rounded(factor * material.constants.*place.field.member, 3), place.field.unit);
   }
   return text;
 }
@@ -158,8 +159,8 @@ std::string settings(const GroundAdvice& ground, ConstantAdvice::Aim aim) {
   std::string text;
   for (const ConstantAdvice& constant : ground.constants) {
     if (constant.aim != aim) continue;
-    text += fmt::format("{}{} = {:.4g} {}", text.empty() ? "" : " and ", constant.name,
-                        constant.advised, constant.unit);
+    text += fmt::format("{}{} = {} {}", text.empty() ? "" : " and ", constant.name,
+                        text::rounded(constant.advised), constant.unit);
   }
   return text;
 }

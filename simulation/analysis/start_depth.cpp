@@ -14,6 +14,7 @@
 #include "simulation/experiment/kinematics.h"
 #include "simulation/experiment/material_fields.h"
 #include "simulation/experiment/robot_tree.h"
+#include "text/number.h"
 
 namespace hookpoint::simulation {
 namespace {
@@ -99,8 +100,8 @@ class StartDepths {
         {robot, false,
          fmt::format(
              "`{}` rests {:.3g} m deep in the ground, {:.2g} % of its size of {:.3g} m: the "
-             "ground is soft for its weight of {:.4g} N; {}, or lower its mass",
-             spec.name, rest, 100. * rest / size, size, weight(robot),
+             "ground is soft for its weight of {} N; {}, or lower its mass",
+             spec.name, rest, 100. * rest / size, size, text::rounded(weight(robot)),
              stiffness == nullptr
                  ? std::string("choose stiffer constants in the Material")
                  : fmt::format("raise {} of the Material", field_of(stiffness).name))});

@@ -41,6 +41,11 @@ bool check_duration(const language::Position& position, double duration, double 
     diagnostics.error(position, std::move(problem));
     return false;
   }
+  if (duration > 0. && step_count(duration, deltat) == 0)
+    diagnostics.warning(position,
+                        fmt::format("{} s are less than half a step of {} s: the run takes none; "
+                                    "lengthen the duration or shorten the step",
+                                    text::rounded(duration), text::rounded(deltat)));
   if (const double steps = duration / deltat; steps > long_run)
     diagnostics.warning(
         position, fmt::format("{} are {} steps: at a million steps a second they take {} days",

@@ -19,8 +19,8 @@ std::int64_t step_count(double time, double deltat);
 /// Why a run cannot last `duration`: more than `most_steps` steps. "" where it can.
 std::string step_count_problem(double duration, double deltat);
 
-/// Reports at `position` a duration that no run can last as an error, and one that would take days
-/// as a warning. False after an error.
+/// Reports at `position` a duration that no run can last as an error, and one that would take days, or no
+/// step, as a warning. False after an error.
 bool check_duration(const language::Position& position, double duration, double deltat,
                     language::Diagnostics& diagnostics);
 

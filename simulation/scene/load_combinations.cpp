@@ -72,10 +72,11 @@ void check_combinations(const language::Object& world, Loading& loading) {
     check_tolerances(world, loading);
   }
   if (experiment.settings != "default") {
-    loading.error(place_of(world, "settings"),
-                  fmt::format("settings = {} is for a peer, and the engine is dts; leave it out or "
-                              "choose another engine",
-                              experiment.settings));
+    loading.error(
+        place_of(world, "settings"),
+        fmt::format("settings = {} is of another engine, and the engine is dts; leave it out or "
+                    "choose another engine",
+                    experiment.settings));
   }
 }
 

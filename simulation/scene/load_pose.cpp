@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -160,6 +161,19 @@ void warn_of_bodies_below(const language::Object& base, const contact::Terrain& 
                   robot.name, below, bodies.size(), body_names(robot)[body], deepest));
 }
 
+/// Of a robot whose base is free to fall and that has neither a shape that touches nor a ContactPoint.
+void warn_of_none_that_touches(const language::Object& base, const RobotSpec& robot,
+                               Loading& loading) {
+  const Vector3d& gravity = loading.experiment.gravity;
+  std::array weight{gravity.x, gravity.y, gravity.z};
+  if (robot.plane_normal) weight[*robot.plane_normal] = 0.;
+  if (!robot.mobile || weight == std::array{0., 0., 0.} || !points_in_base(robot).empty()) return;
+  loading.diagnostics.warning(
+      base.position, fmt::format("`{}` falls through the ground: nothing of it touches; give it a "
+                                 "shape or a ContactPoint",
+                                 robot.name));
+}
+
 /// One error a robot: the first of its boundary points that starts off the terrain.
 void check_inside(const language::Object& base, const contact::Terrain& ground,
                   const RobotSpec& robot, Loading& loading) {
@@ -210,6 +224,7 @@ void settle_on_terrain(const std::vector<bool>& laid, Loading& loading) {
     const language::Object& base = *loading.bases[i];
     if (laid[i] && base.boolean(base_field::settled)) settle(base, ground, robot, loading);
     if (laid[i]) warn_of_bodies_below(base, ground, robot, loading);
+    if (!base.given(base_field::rest_on)) warn_of_none_that_touches(base, robot, loading);
     check_inside(base, ground, robot, loading);
   }
 }

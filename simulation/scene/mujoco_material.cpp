@@ -73,11 +73,12 @@ std::string in_words(const MaterialSpec& material, const Standing& standing,
   const contact::MujocoLoading& at = standing.loading;
   constexpr double slope = 10. * std::numbers::pi / 180.;
   return fmt::format(
-      "Material {}: solref {:g}, {:g} under {} ({:.4g} N and {:.4g} kg on each contact) is {} "
+      "Material {}: solref {:g}, {:g} under {} ({} N and {} kg on each contact) is {} "
       "N/m and {} N s/m; depth {:.4g} mm, rebound {:.3g}; in MuJoCo it creeps at {:.4g} mm/s on "
       "10 deg",
-      material.name, stated.row.reference[0], stated.row.reference[1], robot, at.load, at.mass,
-      text::rounded(spring.stiffness), text::rounded(spring.damping), 1e3 * spring.depth,
+      material.name, stated.row.reference[0], stated.row.reference[1], robot,
+      text::rounded(at.load), text::rounded(at.mass), text::rounded(spring.stiffness),
+      text::rounded(spring.damping), 1e3 * spring.depth,
       contact::kelvin_voigt_restitution(spring.damping_ratio),
       1e3 * mujoco_creep(stated.row, stated.friction, at, spring.depth, slope));
 }
@@ -120,8 +121,8 @@ void complete_mujoco_materials(bool automatic, Loading& loading) {
         !(spring.stiffness > 0.)) {
       loading.error(objects[i]->position,
                     fmt::format("solref and solimp of Material {} give no stiffness within the "
-                                "range of numbers under {:.4g} N",
-                                material.name, standing->loading.load));
+                                "range of numbers under {} N",
+                                material.name, text::rounded(standing->loading.load)));
       continue;
     }
     const std::array values{spring.stiffness, spring.damping, spring.stiffness, spring.damping};

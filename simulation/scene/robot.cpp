@@ -99,7 +99,7 @@ language::ClassSchema base_class(std::string name, std::string doc) {
                       "start at rest on this ground instead of at location and orientation: z "
                       "along the tile's normal, "
                       "lowest boundary points at the contact law's static penetration (touching, "
-                      "for a peer)"),
+                      "for another engine)"),
          list_field(base_field::at, "m", 2, 2, "0,0",
                     "with rest_on: world x,y of the base frame's origin"),
          number_field(base_field::yaw, "rad", "0", "with rest_on: turn about the ground's normal"),

@@ -27,13 +27,13 @@ LoadedField<Experiment> engine_field(const PeerChoices& peers) {
   std::vector<std::string> names{Experiment{}.engine};
   append(names, peers.engines);
   return choice_field("engine", names, &Experiment::engine,
-                      "who computes the motion: the decoupled tree-structure engine or a peer");
+                      "who computes the motion: the decoupled tree-structure engine or another");
 }
 
 LoadedField<Experiment> settings_field(const PeerChoices& peers) {
   std::vector<std::string> names(common_settings.begin(), common_settings.end());
   std::string doc =
-      "how a peer is set up: its first example, its maintainers' practice, or nearest to the "
+      "how another engine is set up: its first example, its maintainers' practice, or nearest to the "
       "penalty law";
   for (const PeerChoices::Setting& own : peers.settings) {
     names.push_back(own.name);
@@ -66,7 +66,7 @@ Fields<Experiment> world_fields(const PeerChoices& peers) {
       positive(number_field("absolute_tolerance", "", &Experiment::absolute_tolerance,
                             "local error allowed whatever the size: m, rad, m/s, rad/s")),
       choice_field("contact", contact::law_names(), &Experiment::contact,
-                   "contact law of engine dts; a peer brings its own contact"),
+                   "contact law of engine dts; other engines bring their own contact"),
       choice_field("touch", {"points", "shapes"}, &Experiment::touch,
                    "what of a body touches: points sampled from its shapes, each on the one tile "
                    "under it, as in the paper; or the shapes as they are, with edges, corners and "

@@ -30,8 +30,9 @@ inline constexpr std::array composition_words{
     CompositionWord{"engine", &Composition::engine, "which engine runs the scene"},
     CompositionWord{"contact", &Composition::contact, "the contact law, of engine dts"},
     CompositionWord{"integrator", &Composition::integrator, "the integrator, of engine dts"},
-    CompositionWord{"settings", &Composition::settings,
-                    "a peer's settings: default, recommended, matched, and noslip of mujoco"}};
+    CompositionWord{
+        "settings", &Composition::settings,
+        "another engine's settings: default, recommended, matched, and those of one engine alone"}};
 
 struct SubjectPlan : Composition {
   SubjectInfo info;

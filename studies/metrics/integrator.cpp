@@ -178,7 +178,7 @@ std::span<const MetricDefinition> integrator_metrics() {
       {.name = "reference_error",
        .unit = "m",
        .doc =
-           "greatest distance of the body's origin from the run of arkode with tolerances of 1e-10 and steps of 0.1 ms or less, for a peer only where there is no ground",
+           "greatest distance of the body's origin from the run of arkode with tolerances of 1e-10 and steps of 0.1 ms or less, for another engine only where there is no ground",
        .make = make_reference_error},
   });
   return rows;

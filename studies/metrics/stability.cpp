@@ -81,7 +81,7 @@ std::span<const MetricDefinition> stability_metrics() {
       {.name = "stable_step",
        .unit = "s",
        .doc =
-           "largest stable step of the run's integrator at its start (docs/contact.md); nothing for a peer, an impulse law or an adaptive integrator",
+           "largest stable step of the run's integrator at its start (docs/contact.md); nothing for another engine, an impulse law or an adaptive integrator",
        .make = make_stable_step},
   });
   return rows;

@@ -366,8 +366,11 @@ TEST(Mjcf, ContactOfTheFileIsKeptInItsWordsAndAsASpring) {
   for (const std::string& words :
        {std::string("78125 N/m"), std::string("2 kg"), fmt::format("{:.4g} mm/s", 1e3 * creep)})
     EXPECT_NE(loaded.diagnostics.find(words), std::string::npos) << words << loaded.diagnostics;
-  for (const char* read : {"solref of <geom>", "solimp of <geom>", "condim of <geom>"})
+  for (const char* read : {"solref of <geom>", "solimp of <geom>", "condim of <geom>", "<option>"})
     EXPECT_EQ(loaded.diagnostics.find(read), std::string::npos) << loaded.diagnostics;
+  const Loaded more = load_resting_ball("", "<option cone=\"elliptic\" timestep=\"0.01\"/>");
+  EXPECT_NE(more.diagnostics.find("timestep of <option>"), std::string::npos) << more.diagnostics;
+  EXPECT_EQ(more.diagnostics.find("cone of <option>"), std::string::npos) << more.diagnostics;
   // It starts as deep as that spring carries it.
   EXPECT_NEAR(loaded.experiment->robots[0].location.z, 0.1 - 2. * 9.81 / stiffness, 1e-9);
 }

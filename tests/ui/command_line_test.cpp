@@ -62,7 +62,37 @@ INSTANTIATE_TEST_SUITE_P(
         WrongInput{"study " + config("studies/creep.hook") + " --jobs 0",
                    "--jobs takes a whole number"},
         WrongInput{"study " + config("studies/creep.hook") + " --only nobody", "nobody"},
-        WrongInput{"describe Base.mobil", "did you mean `Base.mobile`?"}));
+        WrongInput{"describe Base.mobil", "did you mean `Base.mobile`?"},
+        WrongInput{"describe creep", "it is part of creep_"},
+        WrongInput{"new robt walker", "KIND is one of robot, study, controller, not `robt`"},
+        WrongInput{"replay run.h5 --film a.webm --quality best",
+                   "--quality is one of low, medium, high"}));
+
+// A file of another kind is wrong as a whole, not in each of its lines.
+TEST(CommandLine, AFileOfAnotherKindHasOneError) {
+  const Workplace work;
+  work.file("notes.md", "\n# Notes\n\n| a | b |\n|---|---|\n| 1 | 2 |\n");
+  const CommandResult result = work.hookpoint("check notes.md");
+  EXPECT_EQ(result.status, 2);
+  EXPECT_NE(result.err.find("notes.md:2:1: error: this is no configuration"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(result.err.find("error"), result.err.rfind("error")) << result.err;
+}
+
+TEST(CommandLine, ALawOrAnIntegratorForAnotherEngineIsNotedAsUnread) {
+  const Workplace work;
+  for (const auto& [option, field] :
+       {std::pair{" --contact lugre", "`contact`"}, {" --integrator rk4", "`integrator`"}}) {
+    const std::string note = std::string(field) + " is not read: it is of engine dts";
+    const std::string command = "run " + block + " --for 5ms" + option;
+    const CommandResult other = work.hookpoint(command + " --engine ode");
+    EXPECT_EQ(other.status, 0) << other.err;
+    EXPECT_NE(other.err.find(note), std::string::npos) << other.err;
+    EXPECT_EQ(work.hookpoint(command).err.find(note), std::string::npos);
+  }
+  EXPECT_EQ(work.hookpoint("run " + block + " --for 5ms --engine ode").err.find("is not read"),
+            std::string::npos);
+}
 
 TEST(CommandLine, RunRecordsARowAtTimeZeroThenOneAStep) {
   const Workplace work;

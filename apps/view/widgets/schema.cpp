@@ -233,7 +233,7 @@ ClassSchema ghost_class(const language::Schema& schema) {
   ghost.children = {"Fix"};
   ghost.fields = {
       varied(schema, "engine", "as of a World; if not given, the run's"),
-      varied(schema, "settings", "of a peer engine, as of a World; if not given, the run's"),
+      varied(schema, "settings", "of another engine, as of a World; if not given, the run's"),
       varied(schema, "contact", "law, as of a World; if not given, the run's"),
       varied(schema, "integrator", "as of a World; if not given, the run's"),
       text_field(widget_field::label, "in legends; if not given, the name"),

@@ -53,8 +53,11 @@ void MjcfReader::read_sections() {
     if (is_list) {
       read_list(section);
     } else if (is_aside) {
-      if (tag == "option" && choices_.contact == StatedContact::file) read_friction(section);
-      leave_out(fmt::format("<{}>", tag));
+      if (tag == "option" && choices_.contact == StatedContact::file) {
+        read_friction(section);
+      } else {
+        leave_out(fmt::format("<{}>", tag));
+      }
     } else if (!is_read) {
       section.file->fail(section.place(), fmt::format("<mujoco> has no <{}>", tag));
     }
@@ -583,6 +586,10 @@ void MjcfReader::read_friction(const XmlElement& option) {
   const MjcfAttributes given = document_.attributes(option, "");
   friction_.impedance_ratio = given.number("impratio", friction_.impedance_ratio);
   if (!(friction_.impedance_ratio > 0.)) given.fail("impratio", "impratio is above 0");
+  for (const pugi::xml_attribute& attribute : option.node.attributes())
+    if (const std::string name = attribute.name(); name != "cone" && name != "impratio")
+      leave_out(fmt::format("{} of <option>", name));
+  if (option.node.first_child()) leave_out("what is in <option>");
 }
 
 /// A joint beyond which nothing has a mass cannot be set in motion.

@@ -143,7 +143,7 @@ const Case cases[] = {
      "rk4; leave the "
      "integrator out or choose a force law\n"},
     {"settings_of_dts", "World w {\nsettings = matched; }",
-     "error 2:12 settings = matched is for a peer, and the engine is dts; leave it out or choose "
+     "error 2:12 settings = matched is of another engine, and the engine is dts; leave it out or choose "
      "another engine\n"},
     {"hull_in_a_plane",
      "World w { Robot r { Base.mobile { mass = 1; Shape.Hull {\npoints = 0,0,0, 1,0,0, 0,1,0, "
@@ -183,12 +183,13 @@ INSTANTIATE_TEST_SUITE_P(Load, WrongExperiment, ::testing::ValuesIn(cases), case
 
 // All that is wrong is said at once.
 TEST(LoadErrors, ComeAllInOneGo) {
-  EXPECT_EQ(diagnostics_of("World w { settings = matched; Robot r { }\nRobot s { } }"),
-            "error 1:31 robot `r` has no base; give it a Base.fixed, Base.mobile or Base.planar\n"
-            "error 2:1 robot `s` has no base; give it a Base.fixed, Base.mobile or Base.planar\n"
-            "error 1:22 settings = matched is for a peer, and the engine is dts; leave it out or "
-            "choose another "
-            "engine\n");
+  EXPECT_EQ(
+      diagnostics_of("World w { settings = matched; Robot r { }\nRobot s { } }"),
+      "error 1:31 robot `r` has no base; give it a Base.fixed, Base.mobile or Base.planar\n"
+      "error 2:1 robot `s` has no base; give it a Base.fixed, Base.mobile or Base.planar\n"
+      "error 1:22 settings = matched is of another engine, and the engine is dts; leave it out or "
+      "choose another "
+      "engine\n");
 }
 
 // A massless link may carry one that has inertia: two joints in one place.

@@ -48,6 +48,38 @@ TEST(Warnings, TellOfALawWhoseOwnConstantsNoMaterialStates) {
             std::string::npos);
 }
 
+TEST(Warnings, TellOfARobotOfWhichNothingTouches) {
+  const auto told = [](const std::string& more, const std::string& base) {
+    return load_text("World w { " + more + " Robot b { " + base + " } }").diagnostics;
+  };
+  const std::string ground = "Terrain.Flat f { }", mass = "mass = 1; inertia = 1, 1, 1, 0, 0, 0;";
+  const std::string warning = "`b` falls through the ground: nothing of it touches";
+  const auto is_warned = [&](const std::string& more, const std::string& base) {
+    return told(more, base).find(warning) != std::string::npos;
+  };
+  EXPECT_TRUE(is_warned(ground, "Base.mobile { " + mass + " }"));
+  EXPECT_TRUE(is_warned(
+      ground, "Base.mobile { Shape.Sphere { radius = 0.1; mass = 1; contact = false; } }"));
+  EXPECT_TRUE(is_warned(ground, "Base.planar { plane = xz; " + mass + " }"));
+  EXPECT_FALSE(is_warned(ground, "Base.planar { plane = xy; " + mass + " }")) << "it cannot fall";
+  EXPECT_FALSE(is_warned(ground, "Base.fixed { }"));
+  EXPECT_FALSE(is_warned(ground + " gravity = 0;", "Base.mobile { " + mass + " }"));
+  EXPECT_FALSE(is_warned("", "Base.mobile { " + mass + " }"));
+  EXPECT_FALSE(is_warned(ground, "Base.mobile { " + mass + " ContactPoint foot { } }"));
+}
+
+TEST(Warnings, TellOfARunThatTakesNoStep) {
+  const std::string none = "the run takes none";
+  EXPECT_NE(
+      load_text(world("duration = 0.4 s; deltat = 1 s;", "mass = 1; inertia = 1, 1, 1, 0, 0, 0;"))
+          .diagnostics.find(none),
+      std::string::npos);
+  EXPECT_EQ(
+      load_text(world("duration = 0.6 s; deltat = 1 s;", "mass = 1; inertia = 1, 1, 1, 0, 0, 0;"))
+          .diagnostics.find(none),
+      std::string::npos);
+}
+
 // A World without a Terrain has its contacts on obstacles and between robots.
 TEST(Warnings, TellOfConstantsOfObstaclesAndOfRobotsAlone) {
   const std::string ball = "Shape.Sphere { radius = 0.05; mass = 1; } } } ";

@@ -454,7 +454,7 @@ TEST_F(WordStudies, AWordThatTheSceneCannotTakeHasItsPlaceInTheStudy) {
       std::ranges::find(all, language::Severity::error, &language::Diagnostic::severity);
   ASSERT_NE(found, all.end());
   const language::Diagnostic& first = *found;
-  EXPECT_EQ(first.message.substr(0, 20), "`lugra` is no contac");
+  EXPECT_EQ(first.message.substr(0, 20), "`lugra` is no value ");
   EXPECT_EQ(first.position.offset, text.find("lugra"));
   EXPECT_EQ(first.position.length, 5U);
 }
