@@ -7,6 +7,7 @@
 #include "contact/bristle_step.h"
 #include "contact/terrain/rolling.h"
 #include "dts/external_forces.h"
+#include "math/bisect.h"
 #include "simulation/dts_engine/contact_point.h"
 #include "simulation/dts_engine/methods.h"
 #include "simulation/experiment/robot_tree.h"
@@ -205,14 +206,16 @@ std::optional<PressingPlace> ShapeContacts::nearest_place(const Vector3d& place,
   for (const Place& other : std::span(committed_.places).first(committed_.count)) {
     const ShapeContact& at = other.at;
     const double sign = side(at.key);
+    if (sign == 0. || !(at.depth > 0.)) continue;
     const double distance = std::min(norm(at.place - place), norm(other_place(at) - place));
-    if (sign == 0. || distance >= nearest || !(at.depth > 0.)) continue;
+    if (distance >= nearest) continue;
     nearest = distance;
     const double depth = at.depth + at.begun_at;
     found = {{at.key.a, at.place, at.material_a},
              {at.key.b, at.place + depth * at.normal, at.material_b},
              sign * at.normal,
              depth,
+             at.begun_at,
              distance};
     if (sign < 0.) std::swap(found->a, found->b);
   }
@@ -236,6 +239,39 @@ std::optional<PressingPlace> ShapeContacts::place_beside(std::size_t a, std::siz
     if ((key.a == first) != (key.b == second)) return 1.;
     return (key.a == second) != (key.b == first) ? -1. : 0.;
   });
+}
+
+std::optional<PressingPlace> ShapeContacts::corner_beside(std::size_t own, std::size_t corner,
+                                                          std::size_t other) const {
+  const auto all = std::span(committed_.places).first(committed_.count);
+  const auto of_own = std::ranges::equal_range(all, static_cast<std::int64_t>(own), {},
+                                               [](const Place& place) { return place.at.key.a; });
+  for (const Place& place : of_own) {
+    const ShapeContact& at = place.at;
+    // Corners are among the balls, which are numbered first.
+    if (at.key.feature != static_cast<std::int64_t>(corner) ||
+        at.key.b == static_cast<std::int64_t>(other) || !(at.depth > 0.))
+      continue;
+    const double depth = at.depth + at.begun_at;
+    return PressingPlace{{at.key.a, at.place, at.material_a},
+                         {at.key.b, at.place + depth * at.normal, at.material_b},
+                         at.normal,
+                         depth,
+                         at.begun_at,
+                         0.};
+  }
+  return std::nullopt;
+}
+
+double ShapeContacts::begun_at(const ShapeContact& contact, const PressingPlace& beside) const {
+  if (contact.material_a == beside.a.material && contact.material_b == beside.b.material) return 0.;
+  ShapeContact as_it_was = contact;
+  as_it_was.material_a = beside.a.material;
+  as_it_was.material_b = beside.b.material;
+  const double most = normal_energy(as_it_was, contact.depth - beside.begun_at);
+  if (normal_energy(contact, contact.depth) <= most) return 0.;
+  return bisect([&](double begun) { return most - normal_energy(contact, contact.depth - begun); },
+                0., contact.depth);
 }
 
 std::int64_t ShapeContacts::match_key(std::size_t found) const {
@@ -305,8 +341,14 @@ void ShapeContacts::match() {
 void ShapeContacts::limit_new_energy() {
   for (std::size_t i = 0; i < found_.size(); ++i) {
     ShapeContact& contact = found_[i];
-    if (contact.is_tracked() || contact.depth <= 0.) continue;
-    if (matches_[i] >= 0) {
+    if (contact.depth <= 0.) continue;
+    if (contact.is_tracked()) {
+      // Of one that came over a seam of materials.
+      const ShapeContact* before =
+          matches_[i] < 0 ? nullptr : &committed_.places[static_cast<std::size_t>(matches_[i])].at;
+      if (before != nullptr && before->is_tracked())
+        contact.begun_at = std::max(contact.begun_at, std::min(before->begun_at, contact.depth));
+    } else if (matches_[i] >= 0) {
       const ShapeContact& before = committed_.places[static_cast<std::size_t>(matches_[i])].at;
       contact.begun_at = std::min(before.begun_at, contact.depth);
       // w (d - b) stays what it is: with the greater w the spring holds less.
@@ -359,6 +401,7 @@ double ShapeContacts::reserve(std::size_t first, std::size_t last) const {
 
 void ShapeContacts::give_back(double dt) {
   constexpr double time = 0.05;  // [s]: long beside a contact's vibrations
+  given_in_step_ = 0.;
   for (std::size_t first = 0, last = 0; first < found_.size(); first = last) {
     const auto same_pair = [&](const ShapeContact& other) {
       return other.key.a == found_[first].key.a && other.key.b == found_[first].key.b;
@@ -368,11 +411,14 @@ void ShapeContacts::give_back(double dt) {
     for (std::size_t i = first; i < last; ++i) {
       ShapeContact& at = pending_.places[i].at;
       pending_.places[i].reserve = 0.;
-      if (at.begun_at <= 0. || left <= 0.) continue;
+      // What came over a seam onto stiffer ground stays as deep: to rise would take energy.
+      if (at.is_tracked() || at.begun_at <= 0. || left <= 0.) continue;
       double by = std::min(1., dt / time) * at.begun_at;
       const double cost = normal_energy(at, at.depth + by) - normal_energy(at, at.depth);
       if (cost > left) by *= left / cost;  // of a convex energy that costs no more than is left
-      left -= std::min(cost, left);
+      const double given = std::min(cost, left);
+      left -= given;
+      given_in_step_ += given;
       at.begun_at -= by;
     }
     pending_.places[first].reserve = left;
@@ -589,6 +635,7 @@ void ShapeContacts::apply_nothing() { std::ranges::fill(bristle_rates_, 0.); }
 
 void ShapeContacts::commit() {
   works_before_ = surface_works_;
+  given_back_before_ = given_back_;
   std::swap(before_, committed_);
   commit_within_step();
   committed_elapsed_ = 0.;  // the step that begins counts from here
@@ -596,6 +643,7 @@ void ShapeContacts::commit() {
 
 void ShapeContacts::undo() {
   surface_works_ = works_before_;
+  given_back_ = given_back_before_;
   std::swap(before_, committed_);
   committed_elapsed_ = -experiment_.deltat;
 }
@@ -607,6 +655,8 @@ void ShapeContacts::commit_within_step() {
   if (end < over) std::fill(end, over, Place{});
   committed_.count = pending_.count;
   committed_elapsed_ = elapsed_;
+  given_back_ += given_in_step_;
+  given_in_step_ = 0.;
   std::ranges::copy(pending_.motions, committed_.motions.begin());
 }
 
@@ -692,7 +742,7 @@ void ShapeContacts::cross_events(std::span<const int> directions) {
 // Published.
 
 double ShapeContacts::stored_energy() const {
-  double sum = 0.;
+  double sum = -given_back_;
   for (const Place& place : places()) {
     if (place.memory.attached)
       sum += place.at.weight * contact::surface_energy(place.at.depth, place.memory.stretch,

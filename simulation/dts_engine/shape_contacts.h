@@ -95,6 +95,8 @@ class ShapeContacts final : private DetectionMemory {
   std::optional<std::size_t> body_of(std::size_t object) const;
   /// The boundary point that a place belongs to; none of a rim, an edge, and on the other's side.
   std::optional<std::size_t> boundary_point(const ContactKey& key) const;
+  /// What the springs hold, less what contacts that began without energy were given back so far: in an account
+  /// of energy that was put in [J].
   double stored_energy() const;
   /// Number of an object among the terrain, if there is one, and the obstacles; none for bodies.
   std::optional<std::size_t> surface_of(std::size_t object) const {
@@ -161,6 +163,9 @@ class ShapeContacts final : private DetectionMemory {
                                           double reach) const override;
   std::optional<PressingPlace> place_beside(std::size_t a, std::size_t b,
                                             const Vector3d& place) const override;
+  std::optional<PressingPlace> corner_beside(std::size_t own, std::size_t corner,
+                                             std::size_t other) const override;
+  double begun_at(const ShapeContact& contact, const PressingPlace& beside) const override;
   /// The nearest that presses; `side(key)`: 1 of one that acts as the one looked for, -1 of one that acts the
   /// other way, 0 of any other.
   template <class Side>
@@ -242,6 +247,7 @@ class ShapeContacts final : private DetectionMemory {
   std::vector<SurfaceLoad> loads_;       ///< of each of them, at the state under evaluation
   std::vector<Vector3d> surface_impulses_;
   std::vector<double> surface_works_, works_before_;
+  double given_back_ = 0., given_back_before_ = 0., given_in_step_ = 0.;  ///< [J]
   /// Since the step's start, of the state under evaluation and of the committed one [s].
   double elapsed_ = 0., committed_elapsed_ = 0.;
   std::vector<ShapeContact> found_;

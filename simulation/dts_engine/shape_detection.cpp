@@ -20,6 +20,9 @@ constexpr std::int64_t of_a_ridge =
 constexpr std::int64_t part_size = std::int64_t{1} << 28;
 /// How thick the ground is [m].
 constexpr double solid_ground = std::numeric_limits<double>::infinity();
+/// What two surfaces may differ in height and be one floor [m].
+constexpr double flush = 1e-6;
+
 std::int64_t numbered(Kind kind, std::size_t part, std::int64_t number = 0) {
   return kind * kind_size + static_cast<std::int64_t>(part) * part_size + number;
 }
@@ -328,31 +331,36 @@ void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_
   if (surface.is_clear_of(contact::region_about(place_in_b, ball.radius + reach_))) return;
   const ContactKey key{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b), feature, other};
   const Vector3d before = memory_->before(b).to_object(memory_->before(a).to_world(ball.center));
-  contact::Holding held = memory_->holding(key);
-  if (held.count == 0 && ball.radius == 0. && surface.contains(place_in_b))
-    held = taken_over(surface, a, b, before, place_in_b, ball.material,
-                      material_of(b, center, material_b));
-  const contact::BallContacts found =
-      contact::ball_on_surface(surface, place_in_b, ball.radius, before, held, reach_, outward);
+  TakenOver taken{memory_->holding(key), {}};
+  if (taken.holding.count == 0 && ball.radius == 0. && surface.contains(place_in_b))
+    taken = taken_over(surface, a, b, before, place_in_b);
+  const contact::BallContacts found = contact::ball_on_surface(
+      surface, place_in_b, ball.radius, before, taken.holding, reach_, outward);
   for (const contact::SurfaceContact& at : found.all()) {
     const Vector3d normal = frame.R_WB * at.normal;
     const Vector3d place = center - ball.radius * normal;
     const double depth = at.depth + dot(lift, at.normal);
     const double share =
         ball.is_corner ? contact::share_with_corner(surface, place_in_b, at.normal, at.depth) : 1.;
-    add({key, place, normal, depth, share * at.part, ball.material,
-         material_of(b, place, material_b), found.holding});
+    ShapeContact contact{key,
+                         place,
+                         normal,
+                         depth,
+                         share * at.part,
+                         ball.material,
+                         material_of(b, place, material_b),
+                         found.holding};
+    if (taken.beside) contact.begun_at = memory_->begun_at(contact, *taken.beside);
+    add(contact);
   }
 }
 
 // Not what they came through: a corner that comes in over an edge takes over what the edge held, and one that
-// comes over a seam between objects of one material, from one that is flush with b or with a, what that one
-// held. Where the one beside is lower the corner hits a step.
-contact::Holding ShapeDetection::taken_over(const contact::Surface& surface, std::size_t a,
-                                            std::size_t b, const Vector3d& before,
-                                            const Vector3d& inside, int material_a,
-                                            int material_b) const {
-  constexpr double flush = 1e-6;  // [m]: what two surfaces may differ in height
+// comes over a seam between objects, from one that is flush with b or with a, what that one held. Where the one
+// beside is lower the corner hits a step.
+ShapeDetection::TakenOver ShapeDetection::taken_over(const contact::Surface& surface, std::size_t a,
+                                                     std::size_t b, const Vector3d& before,
+                                                     const Vector3d& inside) const {
   const Vector3d place = memory_->before(b).to_world(before);
   const double near = same_place + norm(inside - before);
   const auto face_at = [&](const PressingPlace& pressing, double most_depth) {
@@ -361,22 +369,21 @@ contact::Holding ShapeDetection::taken_over(const contact::Surface& surface, std
   };
   if (const auto edge = memory_->place_near(a, b, place, near)) {
     const std::int64_t face = face_at(*edge, edge->depth);
-    if (face >= 0) return {{face}, 1};
+    if (face >= 0) return {{{face}, 1}, {}};
   }
   const auto beside = memory_->place_beside(a, b, place);
-  if (!beside || beside->a.material != material_a || beside->b.material != material_b) return {};
+  if (!beside) return {};
   // One that tilts is deeper at the corner than where it presses.
-  const std::int64_t id = face_at(*beside, 2. * beside->depth);
+  constexpr double tilt = 0.01;
+  const std::int64_t id = face_at(*beside, 2. * beside->depth + tilt * beside->distance);
   if (id < 0) return {};
   const contact::Face face = surface.face(id);
-  const double height = face.height(before);
-  const auto level_of = [&](const PressingPlace::Side& side) {
-    return face.height(memory_->before(b).to_object(side.place));
-  };
   const bool is_own = beside->a.object == static_cast<std::int64_t>(a);
-  const double step = is_own ? level_of(beside->b) : level_of(beside->a) - height;
-  const bool is_lower = beside->distance < near && -height <= beside->depth + flush;
-  return std::abs(step) <= flush || is_lower ? contact::Holding{{id}, 1} : contact::Holding{};
+  const double step = is_own ? face.height(memory_->before(b).to_object(beside->b.place))
+                             : dot(beside->a.place - place, beside->normal);
+  const bool is_lower = beside->distance < near && -face.height(before) <= beside->depth + flush;
+  if (std::abs(step) > flush && !is_lower) return {};
+  return {{{id}, 1}, beside};
 }
 
 std::size_t ShapeDetection::end_before(const contact::RoundSolid& disc, std::size_t b,
@@ -703,6 +710,21 @@ bool ShapeDetection::stands_on_face(std::size_t of, std::size_t corner, std::siz
       });
 }
 
+// Whether a corner of `own` presses along `normal` on a third object, beside `other`, that is level with a face of
+// `other` through `level`: then the edge there is a seam in one floor, and what crosses it lies across nothing.
+// World axes.
+bool ShapeDetection::is_over_seam(std::size_t own, std::size_t corner, std::size_t other,
+                                  const Vector3d& level, const Vector3d& normal,
+                                  const std::array<Vector3d, 2>& faces) const {
+  constexpr double along = 0.99, parallel = 0.999;  // cosines
+  const auto beside = memory_->corner_beside(own, corner, other);
+  if (!beside || std::abs(dot(beside->normal, normal)) < along) return false;
+  return std::ranges::any_of(faces, [&](const Vector3d& face) {
+    return std::abs(dot(beside->normal, face)) > parallel &&
+           std::abs(dot(beside->b.place - level, face)) <= flush;
+  });
+}
+
 // Edges of a's polyhedra across the ridges of `surface`, a part of b.
 void ShapeDetection::edges_on_ridges(const contact::Surface& surface,
                                      const PolyhedronFeature* polyhedron_b, std::size_t a,
@@ -767,6 +789,24 @@ void ShapeDetection::edges_on_ridges(const contact::Surface& surface,
               polyhedron_b->solid->ends(static_cast<std::size_t>(ridge.id))[ridge_end];
           if (stands_on_face(b, polyhedron_b->first_corner + corner, a, place, normal)) continue;
         }
+        const auto turned = [&](const std::array<Vector3d, 2>& normals) {
+          return std::array{frame.R_WB * normals[0], frame.R_WB * normals[1]};
+        };
+        const auto crosses_seam = [&](std::size_t own, std::size_t first_corner,
+                                      const std::array<std::size_t, 2>& ends, std::size_t with,
+                                      const Vector3d& level,
+                                      const std::array<Vector3d, 2>& normals) {
+          return std::ranges::any_of(ends, [&](std::size_t corner) {
+            return is_over_seam(own, first_corner + corner, with, level, normal, turned(normals));
+          });
+        };
+        if (crosses_seam(a, polyhedron.first_corner, solid.ends(crossing.edge), b,
+                         place + crossing.contact.depth * normal, ridge.normals) ||
+            (polyhedron_b != nullptr &&
+             crosses_seam(b, polyhedron_b->first_corner,
+                          polyhedron_b->solid->ends(static_cast<std::size_t>(ridge.id)), a, place,
+                          edges[crossing.edge].normals)))
+          continue;
         add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b),
               numbered(edge_kind, p, static_cast<std::int64_t>(crossing.edge)), other + ridge.id},
              place,

@@ -84,6 +84,7 @@ struct PressingPlace {
   Side a, b;
   Vector3d normal;       ///< unit, out of b
   double depth = 0.;     ///< [m]
+  double begun_at = 0.;  ///< as ShapeContact has it [m]
   double distance = 0.;  ///< of the place from the one that was looked for [m]
 };
 
@@ -102,6 +103,12 @@ class DetectionMemory {
   /// Likewise of a on a third object, or of a third object on b, however far.
   virtual std::optional<PressingPlace> place_beside(std::size_t a, std::size_t b,
                                                     const Vector3d& place) const = 0;
+  /// The committed contact of a corner of `own` on a third object beside `other`. O(log contacts + those of own).
+  virtual std::optional<PressingPlace> corner_beside(std::size_t own, std::size_t corner,
+                                                     std::size_t other) const = 0;
+  /// From where the law counts the depth of `contact`, which continues `beside` on another object, so that it
+  /// holds no more energy than that one would: 0 between the same materials [m].
+  virtual double begun_at(const ShapeContact& contact, const PressingPlace& beside) const = 0;
 };
 
 /// Room for the places where objects touch at once.
@@ -134,11 +141,15 @@ class ShapeDetection {
   void ball_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
                        const BallFeature& ball, std::int64_t feature, std::int64_t other,
                        int material_b);
+  /// What holds a ball, and the contact between other objects that it continues, if any.
+  struct TakenOver {
+    contact::Holding holding;
+    std::optional<PressingPlace> beside;
+  };
   /// The face that holds a corner of a which is found inside b, where another contact tells: at `before`
   /// and now at `inside`, in b's frame.
-  contact::Holding taken_over(const contact::Surface& surface, std::size_t a, std::size_t b,
-                              const Vector3d& before, const Vector3d& inside, int material_a,
-                              int material_b) const;
+  TakenOver taken_over(const contact::Surface& surface, std::size_t a, std::size_t b,
+                       const Vector3d& before, const Vector3d& inside) const;
   void rim_on_surface(const contact::Surface& surface, std::size_t a, std::size_t b,
                       const RimFeature& rim, std::int64_t feature, std::int64_t other,
                       int material_b, double half_thickness);
@@ -163,6 +174,8 @@ class ShapeDetection {
                        std::size_t a, std::size_t b, std::int64_t other, int material_b);
   bool stands_on_face(std::size_t of, std::size_t corner, std::size_t on, const Vector3d& place,
                       const Vector3d& normal) const;
+  bool is_over_seam(std::size_t own, std::size_t corner, std::size_t other, const Vector3d& level,
+                    const Vector3d& normal, const std::array<Vector3d, 2>& faces) const;
   bool is_corners(const contact::EdgeContact& at, const contact::Surface& surface,
                   const contact::Ridge& ridge, const contact::Polyhedron& solid, std::size_t edge,
                   std::size_t a, const ObjectMotion& frame) const;

@@ -250,9 +250,9 @@ class Engine {
   /// body's mean force over the last step is shown in equal parts at the points that touch, for
   /// single impulses are over; a peer's forces are those of the step that led there.
   virtual void tell_contacts(std::vector<ContactView>& contacts) const { contacts.clear(); }
-  /// What the ground's springs hold at the published state [J]; none where the engine does not
-  /// tell, or where the ground gives energy by its law: impulses hold a body still by throwing it
-  /// up.
+  /// What the ground's springs hold at the published state, less what they were given back of what their
+  /// dampers took [J]; none where the engine does not tell, or where the ground gives energy by its law:
+  /// impulses hold a body still by throwing it up.
   virtual std::optional<double> ground_energy() const { return std::nullopt; }
   /// Its state as numbers; null for an engine whose solver remembers what nobody can read or set.
   virtual Resumable* resumable() { return nullptr; }

@@ -15,11 +15,11 @@ namespace {
 constexpr double g = 9.81, stiffness = 50e3;
 
 /// Of both sides together: a stiffness of `stiffness` at each corner.
-std::string material(double friction) {
+std::string material(double friction, const std::string& name = "s", double times = 1.) {
   return fmt::format(
-      "Material s {{ normal_stiffness = 50 kN/m; normal_damping = 100; tangential_stiffness = 50 kN/m; "
+      "Material {1} {{ normal_stiffness = {2} N/m; normal_damping = 100; tangential_stiffness = 50 kN/m; "
       "tangential_damping = 100; static_friction = {0}; kinetic_friction = {0}; }} ",
-      friction);
+      friction, name, times * stiffness);
 }
 
 std::string cube(const std::string& name, const std::string& base, const std::string& fields) {
@@ -91,10 +91,11 @@ std::string on_floor(const std::string& law, double friction, const std::string&
 }
 
 /// An Obstacle whose top is z = `top`, from x to x + 0.2 m.
-std::string tile(const std::string& name, double x, double y, double width, double top = 0.) {
+std::string tile(const std::string& name, double x, double y, double width, double top = 0.,
+                 const std::string& of = "s") {
   return fmt::format(
-      "Obstacle.Box {} {{ location = {},{},{}; dimensions = 0.2,{},0.1; material = s; }} ", name,
-      x + 0.1, y, top - 0.05, width);
+      "Obstacle.Box {} {{ location = {},{},{}; dimensions = 0.2,{},0.1; material = {}; }} ", name,
+      x + 0.1, y, top - 0.05, width, of);
 }
 
 struct Floor {
@@ -132,6 +133,54 @@ TEST(FlushBoxes, BrakeAsOneFloor) {
       EXPECT_NEAR(run["w.b.position.x"], -0.06 + way, 0.005 * way) << floor.name << ", y = " << y;
       EXPECT_NEAR(run["w.b.velocity.x"], 0., 1e-4) << floor.name << ", y = " << y;
     }
+  }
+}
+
+// On a floor of one height four corners carry the box, over the seam as beside it.
+TEST(FlushBoxes, CarryByFourCornersOverTheSeam) {
+  const double depth = g / (4. * stiffness);
+  Running run(on_floor("hookpoint", 0., floors[0].boxes, 0.2));
+  run.step(1500);  // the front corners cross at 0.2 s
+  for (int i = 0; i < 3000; ++i) {
+    run.step(1);
+    ASSERT_NEAR(run["w.b.position.z"], 0.02 - depth, 0.05 * depth) << run["w.b.position.x"];
+  }
+  EXPECT_GT(run["w.b.position.x"], 0.025);
+}
+
+/// The tiles p, of material s and friction `before`, and q, with friction `after` and `times` its stiffness.
+std::string two_materials(double before, double after, double times) {
+  return on_floor(
+      "hookpoint", before,
+      material(after, "t", times) + tile("p", -0.2, 0., 0.2) + tile("q", 0., 0., 0.2, 0., "t"),
+      0.9);
+}
+
+// Its weight leans forward while it brakes, by m a h for a length of 2 h: across the seam the front carries m (g +
+// a)/2 and the rear m (g - a)/2, so that a = (mu_p (g - a) + mu_q (g + a))/2.
+TEST(FlushBoxes, BrakeByTheFrictionOfEach) {
+  const double before = 0.2, after = 0.4, speed = 0.9, length = 0.04;
+  const double across = 0.5 * (before + after) * g / (1. + 0.5 * (before - after));
+  const double left = 0.5 * speed * speed - before * g * 0.04 - across * length;  // [J/kg]
+  for (const double times : {1., 3., 0.3}) {
+    Running run(two_materials(before, after, times));
+    run.step(4000);
+    EXPECT_NEAR(run["w.b.position.x"], 0.5 * length + left / (after * g), 3e-4) << times;
+    EXPECT_NEAR(run["w.b.velocity.x"], 0., 1e-4) << times;
+  }
+}
+
+// Between materials of any stiffness the box neither stops nor gains: m g d + 4 k d^2/2 is all there is beside
+// its speed.
+TEST(FlushBoxes, KeepTheEnergyBetweenMaterials) {
+  const double speed = 0.9, spring = g * g / (8. * stiffness);
+  for (const double times : {1., 2., 10., 0.1}) {
+    Running run(two_materials(0., 0., times));
+    run.step(2000);
+    const double v = run["w.b.velocity.x"];
+    EXPECT_NEAR(0.5 * v * v, 0.5 * speed * speed, 3. * spring * std::max(1., 1. / times)) << times;
+    EXPECT_NEAR(run["w.b.position.x"], -0.06 + 0.2 * speed, 1e-3) << times;
+    for (const std::string& notice : run.world().state().notices) ADD_FAILURE() << notice;
   }
 }
 
