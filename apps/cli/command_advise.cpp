@@ -32,8 +32,8 @@ void print_ground(const GroundAdvice& ground) {
     fmt::print("  {:<22} {:>12} {:>12}  {:<7} {}\n", constant.name, text::rounded(constant.present),
                text::rounded(constant.advised), constant.unit, constant.reason);
   fmt::print(
-      "  points keep their hooks while the body moves up and down below {} m/s (advised constants: {} "
-      "m/s)\n",
+      "  points keep their hooks while the body's vertical speed is below {} m/s (advised constants: "
+      "{} m/s)\n",
       text::rounded(ground.survival_present, 3), text::rounded(ground.survival_advised, 3));
 }
 

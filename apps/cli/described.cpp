@@ -127,8 +127,7 @@ std::string last_word(const std::string& name) { return name.substr(name.rfind('
 
 /// What to look up in the place of a `name` that is none of `names`.
 std::string instead_of(const std::string& name, const std::vector<std::string>& names) {
-  if (const std::string nearest = language::nearest_name(name, names); !nearest.empty())
-    return "; did you mean `" + nearest + "`?";
+  if (std::string nearest = language::did_you_mean(name, names); !nearest.empty()) return nearest;
   constexpr std::size_t shortest = 3, most = 12;
   std::set<std::string> longer;
   for (const std::string& one : names)

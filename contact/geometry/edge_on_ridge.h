@@ -24,13 +24,13 @@ struct BodyEdge {
         outwards(face_outwards),
         taper(widening) {}
 
-  Vector3d from, to;   ///< [m]
-  double length;       ///< [m]
-  Vector3d along;      ///< unit, from `from` to `to`; 0 without length
-  double radius = 0.;  ///< [m]
+  Vector3d from, to;  ///< [m]
+  double length;      ///< [m]
+  Vector3d along;     ///< unit, from `from` to `to`; 0 without length
+  double radius;      ///< [m]
   /// Of the two faces that meet there, as Ridge has them; of a round one none.
   std::array<Vector3d, 2> normals, outwards;
-  double taper = 0.;  ///< of a round one, how its radius grows along it: a cone's
+  double taper;  ///< of a round one, how its radius grows along it: a cone's
 };
 
 struct EdgeContact {

@@ -27,15 +27,9 @@ std::vector<Polyhedron::Loop> small_loops(const std::vector<Polyhedron::Loop>& l
 
 /// The box about places and what counts as on them.
 Region region_of(std::span<const Vector3d> places) {
-  Region region{places[0], places[0]};
-  for (const Vector3d& p : places) {
-    region.low = {std::min(region.low.x, p.x), std::min(region.low.y, p.y),
-                  std::min(region.low.z, p.z)};
-    region.high = {std::max(region.high.x, p.x), std::max(region.high.y, p.y),
-                   std::max(region.high.z, p.z)};
-  }
+  const auto [low, high] = region_about(places);
   const Vector3d width{edge_width, edge_width, edge_width};
-  return {region.low - width, region.high + width};
+  return {low - width, high + width};
 }
 
 }  // namespace

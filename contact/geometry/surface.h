@@ -3,6 +3,7 @@
 // near a place. Positions are in the surface's own frame, SI.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -78,6 +79,16 @@ struct Region {
 inline Region region_about(const Vector3d& center, double reach) {
   const Vector3d r{reach, reach, reach};
   return {center - r, center + r};
+}
+/// The least that holds all of them. Of at least one; linear.
+inline Region region_about(std::span<const Vector3d> places) {
+  Region region{places[0], places[0]};
+  auto& [low, high] = region;
+  for (const Vector3d& p : places) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  return region;
 }
 inline bool overlap(const Region& a, const Region& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&

@@ -1,19 +1,21 @@
 #include "language/syntax/parser.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "text/display.h"
 
 namespace hookpoint::language {
 namespace {
 
-/// Whether the text is of another kind of file, of which each line would be wrong: under another ending
-/// its first character is one that no name or comment begins with.
-bool is_foreign(const SourceFile& source) {
+/// Where the text shows that it is of another kind of file, of which each line would be wrong: under another
+/// ending its first character is one that no name or comment begins with.
+std::optional<std::size_t> foreign_at(const SourceFile& source) {
   constexpr std::string_view others = "#<>[](){}|!\"'$%&*+-.,:;=?@\\^`~0123456789";
-  if (source.path.ends_with(".hook")) return false;
   const std::size_t first = source.text.find_first_not_of(" \t\r\n");
-  return first != std::string::npos && others.find(source.text[first]) != std::string_view::npos;
+  const bool foreign = !source.path.ends_with(".hook") && first != std::string::npos &&
+                       others.find(source.text[first]) != std::string_view::npos;
+  return foreign ? std::optional(first) : std::nullopt;
 }
 
 }  // namespace
@@ -151,12 +153,11 @@ Detail& Parser::detail_of(Item& item) {
 }
 
 void parse(ParsedFile& file) {
-  if (is_foreign(file.source)) {
-    file.report.error({&file.source, file.source.text.find_first_not_of(" \t\r\n"), 1},
+  if (const auto at = foreign_at(file.source))
+    file.report.error({&file.source, *at, 1},
                       "this is no configuration: expected a name, such as `World`");
-  } else {
+  else
     Parser(file).parse_file();
-  }
 }
 
 void parse_override(ParsedFile& file) { Parser(file).parse_override(); }

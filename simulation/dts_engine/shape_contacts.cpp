@@ -23,6 +23,17 @@ Vector3d other_place(const ShapeContact& contact) {
   return contact.place + contact.depth * contact.normal;
 }
 
+/// Where it presses, `distance` [m] from what was looked for.
+PressingPlace pressing_place(const ShapeContact& contact, double distance) {
+  const double depth = contact.depth + contact.begun_at;
+  return {{contact.key.a, contact.place, contact.material_a},
+          {contact.key.b, contact.place + depth * contact.normal, contact.material_b},
+          contact.normal,
+          depth,
+          contact.begun_at,
+          distance};
+}
+
 double farthest_reach(const ContactMaterials& materials, const contact::LawDescription& law) {
   double reach = 0.;
   materials.for_each([&](const contact::MaterialConstants<double>& constants) {
@@ -210,14 +221,10 @@ std::optional<PressingPlace> ShapeContacts::nearest_place(const Vector3d& place,
     const double distance = std::min(norm(at.place - place), norm(other_place(at) - place));
     if (distance >= nearest) continue;
     nearest = distance;
-    const double depth = at.depth + at.begun_at;
-    found = {{at.key.a, at.place, at.material_a},
-             {at.key.b, at.place + depth * at.normal, at.material_b},
-             sign * at.normal,
-             depth,
-             at.begun_at,
-             distance};
-    if (sign < 0.) std::swap(found->a, found->b);
+    found = pressing_place(at, distance);
+    if (sign > 0.) continue;
+    std::swap(found->a, found->b);
+    found->normal = -found->normal;
   }
   return found;
 }
@@ -252,13 +259,7 @@ std::optional<PressingPlace> ShapeContacts::corner_beside(std::size_t own, std::
     if (at.key.feature != static_cast<std::int64_t>(corner) ||
         at.key.b == static_cast<std::int64_t>(other) || !(at.depth > 0.))
       continue;
-    const double depth = at.depth + at.begun_at;
-    return PressingPlace{{at.key.a, at.place, at.material_a},
-                         {at.key.b, at.place + depth * at.normal, at.material_b},
-                         at.normal,
-                         depth,
-                         at.begun_at,
-                         0.};
+    return pressing_place(at, 0.);
   }
   return std::nullopt;
 }

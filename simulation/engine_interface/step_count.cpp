@@ -35,17 +35,22 @@ std::string step_count_problem(double duration, double deltat) {
       count_text(duration, deltat), most_steps);
 }
 
+std::string no_step_problem(double duration, double deltat) {
+  if (!(duration > 0.) || step_count(duration, deltat) > 0) return "";
+  return fmt::format(
+      "{} s are less than half a step of {} s: the run takes none; lengthen the duration or shorten "
+      "the step",
+      text::rounded(duration), text::rounded(deltat));
+}
+
 bool check_duration(const language::Position& position, double duration, double deltat,
                     language::Diagnostics& diagnostics) {
   if (std::string problem = step_count_problem(duration, deltat); !problem.empty()) {
     diagnostics.error(position, std::move(problem));
     return false;
   }
-  if (duration > 0. && step_count(duration, deltat) == 0)
-    diagnostics.warning(position,
-                        fmt::format("{} s are less than half a step of {} s: the run takes none; "
-                                    "lengthen the duration or shorten the step",
-                                    text::rounded(duration), text::rounded(deltat)));
+  if (std::string problem = no_step_problem(duration, deltat); !problem.empty())
+    diagnostics.warning(position, std::move(problem));
   if (const double steps = duration / deltat; steps > long_run)
     diagnostics.warning(
         position, fmt::format("{} are {} steps: at a million steps a second they take {} days",

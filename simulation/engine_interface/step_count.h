@@ -19,6 +19,9 @@ std::int64_t step_count(double time, double deltat);
 /// Why a run cannot last `duration`: more than `most_steps` steps. "" where it can.
 std::string step_count_problem(double duration, double deltat);
 
+/// Why a run of `duration` would not move: less than half a step. "" where it does, or lasts 0 s.
+std::string no_step_problem(double duration, double deltat);
+
 /// Reports at `position` a duration that no run can last as an error, and one that would take days, or no
 /// step, as a warning. False after an error.
 bool check_duration(const language::Position& position, double duration, double deltat,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/geometry/surface.h"
 #include "simulation/scene/load_parts.h"
 #include "simulation/scene/urdf/hull.h"
 
@@ -49,7 +50,7 @@ double size_of(const Legcone& cone) {
 }
 double size_of(const Capsule& capsule) { return capsule.radius + 0.5 * capsule.length; }
 double size_of(const Hull& hull) {
-  const auto [low, high] = bounds_of(hull.vertices);
+  const auto [low, high] = contact::region_about(hull.vertices);
   return norm(high - low);
 }
 

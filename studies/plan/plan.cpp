@@ -326,7 +326,8 @@ class StudyPlanner : public RowPlanner {
 
   /// Reports a row that is too long to be counted in steps, where its length is said.
   bool check_length(const RowPlan& row) {
-    const std::string problem = simulation::step_count_problem(row.duration, row.deltat);
+    std::string problem = simulation::step_count_problem(row.duration, row.deltat);
+    if (problem.empty()) problem = simulation::no_step_problem(row.duration, row.deltat);
     if (problem.empty()) return true;
     const int cases = plan_.case_sweep();
     if (cases >= 0 && !plan_.sweeps[static_cast<std::size_t>(cases)].durations.empty()) {

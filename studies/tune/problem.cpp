@@ -95,9 +95,9 @@ void check_search(const TunePlan& plan, const Object& tune, const TuneBlock& blo
     diagnostics.error(block.population.position_or(tune.position),
                       "nsga2 pairs its candidates: a multiple of 4");
   const auto& said = block.duration ? block.duration : block.quick_duration;
-  if (const std::string problem = simulation::step_count_problem(plan.runs.duration, deltat);
-      !problem.empty())
-    diagnostics.error(said.position_or(tune.position), problem);
+  std::string problem = simulation::step_count_problem(plan.runs.duration, deltat);
+  if (problem.empty()) problem = simulation::no_step_problem(plan.runs.duration, deltat);
+  if (!problem.empty()) diagnostics.error(said.position_or(tune.position), problem);
   if (plan.runs.settle >= plan.runs.duration)
     diagnostics.error(block.settle.position_or(tune.position),
                       "settle must be shorter than the duration: nothing would be measured");

@@ -15,6 +15,8 @@ extern "C" {
 #include <libqhull_r/qhull_ra.h>
 }
 
+#include "contact/geometry/surface.h"
+
 namespace hookpoint::simulation {
 namespace {
 
@@ -77,7 +79,7 @@ FoundHull find_hull(std::vector<double>& coordinates) {
 
 /// Scaled to the cube between -1 and 1 of their bounds.
 std::vector<double> hull_coordinates(std::span<const Vector3d> points) {
-  const auto [low, high] = bounds_of(points);
+  const auto [low, high] = contact::region_about(points);
   const Vector3d middle = 0.5 * (low + high), edges = high - low;
   const double size = 0.5 * std::max({edges.x, edges.y, edges.z});
   std::vector<double> coordinates;
@@ -101,16 +103,6 @@ bool closed(const std::vector<std::vector<std::size_t>>& faces) {
 }
 
 }  // namespace
-
-Bounds bounds_of(std::span<const Vector3d> points) {
-  Bounds bounds{points[0], points[0]};
-  auto& [low, high] = bounds;
-  for (const Vector3d& p : points) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  return bounds;
-}
 
 std::vector<Vector3d> hull_vertices(std::span<const Vector3d> points) {
   constexpr std::size_t simplex = 4;

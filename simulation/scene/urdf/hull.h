@@ -1,4 +1,4 @@
-// What bounds a cloud of points: its box, its convex hull, and the corners of that, by which a mesh
+// What bounds a cloud of points: its convex hull, and the corners of that, by which a mesh
 // touches the ground.
 #pragma once
 
@@ -10,12 +10,6 @@
 #include "simulation/experiment/experiment.h"
 
 namespace hookpoint::simulation {
-
-/// The corners of the points' bounding box. Of at least one point; linear.
-struct Bounds {
-  Vector3d low, high;
-};
-Bounds bounds_of(std::span<const Vector3d> points);
 
 /// The vertices of the convex hull of `points`, in their order (Barber, Dobkin & Huhdanpaa 1996,
 /// The quickhull algorithm for convex hulls, ACM Trans. Math. Softw. 22, as Qhull has it). Points

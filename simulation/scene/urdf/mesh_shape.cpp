@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "contact/geometry/surface.h"
 #include "simulation/scene/urdf/hull.h"
 #include "simulation/scene/urdf/mesh_path.h"
 
@@ -44,7 +45,7 @@ void add_mesh(std::span<const Vector3d> vertices, const Vector3d& scale, UrdfMes
   for (const Vector3d& p : vertices)
     points.push_back({scale.x * p.x, scale.y * p.y, scale.z * p.z});
   if (as == UrdfMeshes::box) {
-    const auto [low, high] = bounds_of(points);
+    const auto [low, high] = contact::region_about(points);
     // A flat mesh is a plate.
     constexpr double thinnest = 1e-6;  // [m]
     const Vector3d edges = high - low;

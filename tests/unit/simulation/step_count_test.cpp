@@ -36,5 +36,13 @@ TEST(StepCount, EndsWhereADoubleHoldsNotEachWholeNumber) {
   EXPECT_NE(step_count_problem(1e300, 1e-300), "") << "a quotient that overflows";
 }
 
+TEST(StepCount, OfARunThatDoesNotMoveIsAProblem) {
+  EXPECT_EQ(no_step_problem(0.4, 1.),
+            "0.4 s are less than half a step of 1 s: the run takes none; lengthen the duration or "
+            "shorten the step");
+  EXPECT_EQ(no_step_problem(0.5, 1.), "");
+  EXPECT_EQ(no_step_problem(0., 1.), "") << "nobody wants it to move";
+}
+
 }  // namespace
 }  // namespace hookpoint::simulation
