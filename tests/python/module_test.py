@@ -58,6 +58,18 @@ def stepped_by_100(world):
     return world
 
 
+def interrupt_once(holds):
+    """Ctrl-C, from another thread, soon after `holds` returns true."""
+    def wait_and_interrupt():
+        while not holds():
+            time.sleep(0.001)
+        for _ in range(100):
+            time.sleep(0)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Thread(target=wait_and_interrupt, daemon=True).start()
+
+
 def read_csv(path):
     return list(csv.reader(path.read_text().splitlines()))
 
@@ -181,8 +193,7 @@ class World(unittest.TestCase):
     def test_ctrl_c_stops_a_run_and_keeps_what_it_recorded(self):
         world = hookpoint.loads(FALLING)
         handler = signal.getsignal(signal.SIGINT)
-        timer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
-        timer.start()
+        interrupt_once(lambda: world.time > 0)
         with self.assertRaises(KeyboardInterrupt):
             world.run(1e6, record=["w.time"])
         self.assertEqual(world.recorded["w.time"][-1], world.recorded["time"][-1])
@@ -193,19 +204,10 @@ class World(unittest.TestCase):
         # Nothing but the other thread ends these steps.
         world = hookpoint.loads(FALLING)
         began = threading.Event()
-
-        def count_then_interrupt():
-            began.wait()
-            for _ in range(100):
-                time.sleep(0)
-            os.kill(os.getpid(), signal.SIGINT)
-
-        thread = threading.Thread(target=count_then_interrupt, daemon=True)
-        thread.start()
+        interrupt_once(began.is_set)
         with self.assertRaises(KeyboardInterrupt):
             began.set()
             world.step(10**12)
-        thread.join()
 
     def test_gives_the_bytes_of_the_command(self):
         scene = CONFIGS / "scenes" / "sloped_block.hook"
@@ -648,8 +650,10 @@ class Batch(unittest.TestCase):
 
     def test_ctrl_c_stops_a_batch(self):
         batch = hookpoint.Batch(FALLING, 4, threads=2)
-        threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()
+        began = threading.Event()
+        interrupt_once(began.is_set)
         with self.assertRaises(KeyboardInterrupt):
+            began.set()
             batch.step(count=10**12)
 
 
@@ -760,13 +764,8 @@ class Study(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             store = pathlib.Path(folder) / "store"
 
-            def interrupt_after_the_first_row():
-                # The store's log has a run once it is longer than its own head and its tables.
-                while not any(log.stat().st_size > 100_000 for log in store.glob("*-wal")):
-                    time.sleep(0.001)
-                os.kill(os.getpid(), signal.SIGINT)
-
-            threading.Thread(target=interrupt_after_the_first_row, daemon=True).start()
+            # The store's log has a run once it is longer than its own head and its tables.
+            interrupt_once(lambda: any(log.stat().st_size > 100_000 for log in store.glob("*-wal")))
             with self.assertRaises(KeyboardInterrupt):
                 hookpoint.study(CONFIGS / "studies" / "creep.hook", out=folder)
             self.assertFalse((pathlib.Path(folder) / "results.csv").exists())
