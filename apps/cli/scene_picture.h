@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/shared/consent.h"
+
 namespace hookpoint::cli {
 
 struct PictureRequest {

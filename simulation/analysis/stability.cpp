@@ -14,6 +14,7 @@
 #include "simulation/analysis/stable_step.h"
 #include "simulation/analysis/standing.h"
 #include "simulation/dts_engine/robot_system.h"
+#include "simulation/dts_engine/shape_object.h"
 #include "simulation/experiment/ground.h"
 #include "simulation/experiment/robot_tree.h"
 
