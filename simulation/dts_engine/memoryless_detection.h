@@ -51,9 +51,6 @@ class MemorylessDetection final : private DetectionMemory {
                                             const Vector3d&) const override {
     return std::nullopt;
   }
-  std::optional<PressingPlace> corner_beside(std::size_t, std::size_t, std::size_t) const override {
-    return std::nullopt;
-  }
   double begun_at(const ShapeContact&, const PressingPlace&) const override { return 0.; }
 
   const bool stays_outside_;

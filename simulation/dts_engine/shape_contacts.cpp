@@ -8,6 +8,7 @@
 #include "contact/terrain/rolling.h"
 #include "dts/external_forces.h"
 #include "math/bisect.h"
+#include "simulation/dts_engine/common_floor.h"
 #include "simulation/dts_engine/contact_point.h"
 #include "simulation/dts_engine/methods.h"
 #include "simulation/experiment/robot_tree.h"
@@ -248,22 +249,6 @@ std::optional<PressingPlace> ShapeContacts::place_beside(std::size_t a, std::siz
   });
 }
 
-std::optional<PressingPlace> ShapeContacts::corner_beside(std::size_t own, std::size_t corner,
-                                                          std::size_t other) const {
-  const auto all = std::span(committed_.places).first(committed_.count);
-  const auto of_own = std::ranges::equal_range(all, static_cast<std::int64_t>(own), {},
-                                               [](const Place& place) { return place.at.key.a; });
-  for (const Place& place : of_own) {
-    const ShapeContact& at = place.at;
-    // Corners are among the balls, which are numbered first.
-    if (at.key.feature != static_cast<std::int64_t>(corner) ||
-        at.key.b == static_cast<std::int64_t>(other) || !(at.depth > 0.))
-      continue;
-    return pressing_place(at, 0.);
-  }
-  return std::nullopt;
-}
-
 double ShapeContacts::begun_at(const ShapeContact& contact, const PressingPlace& beside) const {
   if (contact.material_a == beside.a.material && contact.material_b == beside.b.material) return 0.;
   ShapeContact as_it_was = contact;
@@ -284,17 +269,17 @@ std::int64_t ShapeContacts::match_key(std::size_t found) const {
     if (place.at.key != contact.key) continue;
     const std::int64_t index = &place - committed_.places.data();
     const double cosine = dot(place.at.normal, contact.normal);
-    if (cosine <= nearest || is_matched(index) || !continues(contact, place.at)) continue;
+    if (cosine <= nearest || is_matched(index)) continue;
+    // The faces that hold a ball know themselves where it is.
+    if (!contact.is_tracked() && !continues(contact, place.at)) continue;
     nearest = cosine;
     match = index;
   }
   return match;
 }
 
-// No depth grows by more than its bodies move: else the same features have met in another place. The faces
-// that hold a ball know themselves where it is.
+// No depth grows by more than its bodies move: else the same features have met in another place.
 bool ShapeContacts::continues(const ShapeContact& contact, const ShapeContact& before) const {
-  if (contact.is_tracked()) return true;
   const Vector3d apart = way_of(contact.key.a, contact.place, contact.place) -
                          way_of(contact.key.b, contact.place, contact.place);
   return contact.depth <= before.depth + before.begun_at + shallow + 2. * norm(apart);
@@ -327,6 +312,31 @@ std::int64_t ShapeContacts::match_place(std::size_t found) const {
   return match;
 }
 
+std::int64_t ShapeContacts::match_beside(std::size_t found) const {
+  constexpr double alike = 0.5;  // cosine between normals
+  const ShapeContact& contact = found_[found];
+  const auto [a, b] =
+      std::pair(static_cast<std::size_t>(contact.key.a), static_cast<std::size_t>(contact.key.b));
+  const bool is_of_a = may_be_of_floor(objects_[b]);  // the feature of the body
+  if (is_of_a == may_be_of_floor(objects_[a])) return -1;
+  for (const Place& place : std::span(committed_.places).first(committed_.count)) {
+    const ContactKey& key = place.at.key;
+    const bool same_feature = is_of_a ? key.a == contact.key.a && key.feature == contact.key.feature
+                                      : key.b == contact.key.b && key.other == contact.key.other;
+    const auto floor = static_cast<std::size_t>(is_of_a ? key.b : key.a);
+    if (!same_feature || floor == (is_of_a ? b : a) || !may_be_of_floor(objects_[floor])) continue;
+    const Vector3d old_place = is_of_a ? place.at.place : other_place(place.at);
+    const Vector3d now = old_place + way_of(is_of_a ? key.a : key.b, old_place, old_place);
+    const std::int64_t index = &place - committed_.places.data();
+    const double moved = norm((is_of_a ? contact.place : other_place(contact)) - now);
+    // An edge may cross several ridges; what touches faces does so once.
+    if ((moved < same_place || !contact.fades()) && dot(place.at.normal, contact.normal) > alike &&
+        !is_matched(index) && continues(contact, place.at))
+      return index;
+  }
+  return -1;
+}
+
 void ShapeContacts::match() {
   matches_.assign(found_.size(), -1);
   matched_.assign(matched_.size(), false);
@@ -337,6 +347,16 @@ void ShapeContacts::match() {
   for (std::size_t i = 0; i < found_.size(); ++i) take(i, match_key(i));
   for (std::size_t i = 0; i < found_.size(); ++i)
     if (matches_[i] < 0) take(i, match_place(i));
+  for (std::size_t i = 0; i < found_.size(); ++i)
+    if (matches_[i] < 0) take(i, match_beside(i));
+}
+
+double ShapeContacts::begun_after(const ShapeContact& contact, const ShapeContact& before) const {
+  const double begun = std::min(before.begun_at, contact.depth);
+  const auto objects = [](const ContactKey& key) { return std::minmax(key.a, key.b); };
+  return objects(before.key) == objects(contact.key)
+             ? begun
+             : std::max(begun, begun_at(contact, pressing_place(before, 0.)));
 }
 
 void ShapeContacts::limit_new_energy() {
@@ -348,10 +368,10 @@ void ShapeContacts::limit_new_energy() {
       const ShapeContact* before =
           matches_[i] < 0 ? nullptr : &committed_.places[static_cast<std::size_t>(matches_[i])].at;
       if (before != nullptr && before->is_tracked())
-        contact.begun_at = std::max(contact.begun_at, std::min(before->begun_at, contact.depth));
+        contact.begun_at = std::max(contact.begun_at, begun_after(contact, *before));
     } else if (matches_[i] >= 0) {
       const ShapeContact& before = committed_.places[static_cast<std::size_t>(matches_[i])].at;
-      contact.begun_at = std::min(before.begun_at, contact.depth);
+      contact.begun_at = begun_after(contact, before);
       // w (d - b) stays what it is: with the greater w the spring holds less.
       if (contact.weight > before.weight)
         contact.begun_at =
@@ -386,8 +406,7 @@ double ShapeContacts::reserve(std::size_t first, std::size_t last) const {
     const Place& from = committed_.places[static_cast<std::size_t>(matches_[i])];
     const ShapeContact &before = from.at, &now = found_[i];
     // What the spring as it was would hold here, less what it holds.
-    ShapeContact as_it_was = now;
-    as_it_was.weight = before.weight;
+    ShapeContact as_it_was = before;
     const double depth = now.depth + now.begun_at;
     const double whole = normal_energy(as_it_was, depth - std::min(before.begun_at, depth));
     sum += std::max(0., whole - normal_energy(now, now.depth));
@@ -438,7 +457,7 @@ contact::Memory<double> ShapeContacts::carried(const ShapeContact& contact,
   if (!memory.attached) return memory;
   const Vector3d &old_place = from.at.place, &place = contact.place;
   // Of a place that was seen from the other side, the stretch is the opposite.
-  const bool swapped = from.at.key.a != contact.key.a;
+  const bool swapped = from.at.key.a == contact.key.b;
   if (swapped) {
     const Vector3d surface = old_place + from.at.depth * from.at.normal;
     memory.hook = surface + (surface - memory.hook);

@@ -163,8 +163,6 @@ class ShapeContacts final : private DetectionMemory {
                                           double reach) const override;
   std::optional<PressingPlace> place_beside(std::size_t a, std::size_t b,
                                             const Vector3d& place) const override;
-  std::optional<PressingPlace> corner_beside(std::size_t own, std::size_t corner,
-                                             std::size_t other) const override;
   double begun_at(const ShapeContact& contact, const PressingPlace& beside) const override;
   /// The nearest that presses; `side(key)`: 1 of one that acts as the one looked for, -1 of one that acts the
   /// other way, 0 of any other.
@@ -177,8 +175,11 @@ class ShapeContacts final : private DetectionMemory {
   void move_objects(std::span<dts::Workspace<double>* const> workspaces, double elapsed);
   /// For each contact that was found, the committed place that it continues; none: -1. Of its own key
   /// the one with the nearest normal; else one at the same place, where a corner that comes over an
-  /// edge hands over to the edge.
+  /// edge hands over to the edge; else that of the same feature of a body on the next object of one floor.
   void match();
+  /// From where the law counts the depth of a contact that continues `before`, the same or on the next object of
+  /// one floor [m].
+  double begun_after(const ShapeContact& contact, const ShapeContact& before) const;
   /// Lets contacts that begin deep inside, where nothing was before, push from the depth where they
   /// begin, and weights grow at the force that is there: else energy would come from nothing.
   void limit_new_energy();
@@ -193,6 +194,7 @@ class ShapeContacts final : private DetectionMemory {
   std::int64_t match_key(std::size_t found) const;
   bool continues(const ShapeContact& contact, const ShapeContact& before) const;
   std::int64_t match_place(std::size_t found) const;
+  std::int64_t match_beside(std::size_t found) const;
   bool is_matched(std::int64_t place) const { return matched_[static_cast<std::size_t>(place)]; }
   /// Of the ball that a contact is of; 0 of others [m].
   double ball_radius(const ContactKey& key) const;

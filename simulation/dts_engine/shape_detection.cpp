@@ -20,8 +20,6 @@ constexpr std::int64_t of_a_ridge =
 constexpr std::int64_t part_size = std::int64_t{1} << 28;
 /// How thick the ground is [m].
 constexpr double solid_ground = std::numeric_limits<double>::infinity();
-/// What two surfaces may differ in height and be one floor [m].
-constexpr double flush = 1e-6;
 
 std::int64_t numbered(Kind kind, std::size_t part, std::int64_t number = 0) {
   return kind * kind_size + static_cast<std::int64_t>(part) * part_size + number;
@@ -45,8 +43,10 @@ contact::Region turned(const contact::Region& box, const Matrix3d& R, const Vect
 
 /// Whether a point of a rim that is deepest under a face lies under it, and not under one beyond: past
 /// a convex edge the ridge and the face beyond take over, past a concave one both faces press where it
-/// is inside both.
-bool is_under(const contact::Surface& surface, const contact::Face& face, const Vector3d& point) {
+/// is inside both. `continues(edge)`: the face does beyond it, in another object's.
+template <class Continues>
+bool is_under(const contact::Surface& surface, const contact::Face& face, const Vector3d& point,
+              const Continues& continues) {
   constexpr double blunt = 0.7;  // cosine between the normals
   return std::ranges::all_of(face.all_edges(), [&](const contact::FaceEdge& edge) {
     if (edge.beyond < 0) return true;
@@ -55,7 +55,7 @@ bool is_under(const contact::Surface& surface, const contact::Face& face, const 
     if (edge.fold == contact::Fold::concave) return !past || beyond.height(point) < 0.;
     const bool sharp =
         edge.fold == contact::Fold::convex && dot(face.normal, beyond.normal) < blunt;
-    return !past && (!sharp || beyond.height(point) <= face.height(point));
+    return !past && (!sharp || beyond.height(point) <= face.height(point) || continues(edge));
   });
 }
 
@@ -115,26 +115,6 @@ Vector3d lift_off(const contact::Surface& surface, const Vector3d& place, const 
 
 }  // namespace
 
-ObjectMotion motion_of(const BodyState& body) {
-  ObjectMotion motion;
-  motion.p_WB = body.position;
-  motion.R_WB = rotation_matrix(body.orientation);
-  motion.v_WB = body.velocity;
-  motion.w_WB = body.angular_velocity;
-  return motion;
-}
-
-ObjectMotion motion_of(const SurfaceMotion& surface, double elapsed) {
-  ObjectMotion motion;
-  motion.p_WB = surface.position + elapsed * surface.velocity;
-  motion.R_WB =
-      rotation_matrix(exponential(elapsed * surface.angular_velocity) * surface.orientation);
-  motion.v_WB = surface.velocity;
-  motion.w_WB = surface.angular_velocity;
-  motion.belt = surface.belt_velocity;
-  return motion;
-}
-
 bool ShapeContact::is_tracked() const { return key.feature < kind_size; }
 
 bool ShapeContact::fades() const {
@@ -188,6 +168,7 @@ ShapeDetection::ShapeDetection(const Experiment& experiment,
     if (object.kind != ShapeObject::Kind::terrain && !object.is_empty()) order_.push_back(i);
   }
   edges_.reserve(most_edges);
+  has_floors_ = std::ranges::count_if(objects, may_be_of_floor) > 1;
 }
 
 bool ShapeDetection::may_touch(std::size_t i, std::size_t j) const {
@@ -252,7 +233,39 @@ void ShapeDetection::pair(std::size_t i, std::size_t j) {
   edges_on(i, j);
 }
 
+FloorPart ShapeDetection::part_touched(const ShapeContact& contact) const {
+  if (!has_floors_) return FloorPart::own;
+  const auto a = static_cast<std::size_t>(contact.key.a),
+             b = static_cast<std::size_t>(contact.key.b);
+  const StandingObjects world{objects_, motions_, boxes_};
+  if (may_be_of_floor(objects_[a]))
+    return simulation::part_touched(world, {a, b, contact.place, -contact.normal, false});
+  if (!may_be_of_floor(objects_[b])) return FloorPart::own;
+  const Vector3d on_b = contact.place + contact.depth * contact.normal;
+  return simulation::part_touched(world, {b, a, on_b, contact.normal, !contact.fades()});
+}
+
+// Of the same feature of a on another object of the floor; none: null.
+ShapeContact* ShapeDetection::shared_with(const ShapeContact& contact) {
+  constexpr double parallel = 0.999;  // cosine
+  const auto same = std::ranges::find_if(*contacts_, [&](const ShapeContact& other) {
+    return other.key.a == contact.key.a && other.key.feature == contact.key.feature &&
+           may_be_of_floor(objects_[static_cast<std::size_t>(other.key.b)]) &&
+           dot(other.normal, contact.normal) > parallel &&
+           norm(other.place - contact.place) <= flush;
+  });
+  return same == contacts_->end() ? nullptr : &*same;
+}
+
 void ShapeDetection::add(const ShapeContact& contact) {
+  const FloorPart part = part_touched(contact);
+  if (part == FloorPart::hidden) return;
+  if (ShapeContact* const other = part != FloorPart::own ? shared_with(contact) : nullptr) {
+    // The later object has it, whichever is found first.
+    if (other->key.b > contact.key.b) return;
+    replace(*other, contact);
+    return;
+  }
   if (contacts_->size() < contacts_->capacity()) {
     contacts_->push_back(contact);
     contacts_->back().order = contacts_->size();
@@ -263,10 +276,14 @@ void ShapeDetection::add(const ShapeContact& contact) {
   left_out_ = true;
   const auto shallowest = std::ranges::min_element(*contacts_, {}, &ShapeContact::depth);
   if (shallowest->depth >= contact.depth) return;
-  const std::size_t order = shallowest->order;
-  *shallowest = contact;
-  shallowest->order = order;
-  shallowest->radius = radius_of(contact);
+  replace(*shallowest, contact);
+}
+
+void ShapeDetection::replace(ShapeContact& place, const ShapeContact& contact) {
+  const std::size_t order = place.order;
+  place = contact;
+  place.order = order;
+  place.radius = radius_of(contact);
 }
 
 double ShapeDetection::radius_of(const ShapeContact& contact) const {
@@ -340,16 +357,18 @@ void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_
     const Vector3d normal = frame.R_WB * at.normal;
     const Vector3d place = center - ball.radius * normal;
     const double depth = at.depth + dot(lift, at.normal);
-    const double share =
-        ball.is_corner ? contact::share_with_corner(surface, place_in_b, at.normal, at.depth) : 1.;
     ShapeContact contact{key,
                          place,
                          normal,
                          depth,
-                         share * at.part,
+                         at.part,
                          ball.material,
                          material_of(b, place, material_b),
                          found.holding};
+    const double share =
+        ball.is_corner ? contact::share_with_corner(surface, place_in_b, at.normal, at.depth) : 1.;
+    // A corner inside a floor of several objects takes none.
+    if (share < 1. && part_touched(contact) != FloorPart::inside) contact.weight *= share;
     if (taken.beside) contact.begun_at = memory_->begun_at(contact, *taken.beside);
     add(contact);
   }
@@ -510,8 +529,12 @@ void ShapeDetection::rim_on_surface(const contact::Surface& surface, std::size_t
         for (std::size_t i = 0; i < points.size(); ++i) {
           const double depth = -face.height(points[i]);
           if (depth <= -reach_) continue;
-          const bool over = is_under(surface, face, points[i]);
-          if (over) on_faces[i].add(points[i], face, depth);
+          const auto continues = [&](const contact::FaceEdge& edge) {
+            return has_floors_ && may_be_of_floor(objects_[b]) &&
+                   continues_beyond({objects_, motions_, boxes_}, b, face, edge, points[i]);
+          };
+          if (is_under(surface, face, points[i], continues))
+            on_faces[i].add(points[i], face, depth);
         }
       });
   for (std::size_t i = 0; i < on_faces.size(); ++i) {
@@ -710,21 +733,6 @@ bool ShapeDetection::stands_on_face(std::size_t of, std::size_t corner, std::siz
       });
 }
 
-// Whether a corner of `own` presses along `normal` on a third object, beside `other`, that is level with a face of
-// `other` through `level`: then the edge there is a seam in one floor, and what crosses it lies across nothing.
-// World axes.
-bool ShapeDetection::is_over_seam(std::size_t own, std::size_t corner, std::size_t other,
-                                  const Vector3d& level, const Vector3d& normal,
-                                  const std::array<Vector3d, 2>& faces) const {
-  constexpr double along = 0.99, parallel = 0.999;  // cosines
-  const auto beside = memory_->corner_beside(own, corner, other);
-  if (!beside || std::abs(dot(beside->normal, normal)) < along) return false;
-  return std::ranges::any_of(faces, [&](const Vector3d& face) {
-    return std::abs(dot(beside->normal, face)) > parallel &&
-           std::abs(dot(beside->b.place - level, face)) <= flush;
-  });
-}
-
 // Edges of a's polyhedra across the ridges of `surface`, a part of b.
 void ShapeDetection::edges_on_ridges(const contact::Surface& surface,
                                      const PolyhedronFeature* polyhedron_b, std::size_t a,
@@ -789,24 +797,6 @@ void ShapeDetection::edges_on_ridges(const contact::Surface& surface,
               polyhedron_b->solid->ends(static_cast<std::size_t>(ridge.id))[ridge_end];
           if (stands_on_face(b, polyhedron_b->first_corner + corner, a, place, normal)) continue;
         }
-        const auto turned = [&](const std::array<Vector3d, 2>& normals) {
-          return std::array{frame.R_WB * normals[0], frame.R_WB * normals[1]};
-        };
-        const auto crosses_seam = [&](std::size_t own, std::size_t first_corner,
-                                      const std::array<std::size_t, 2>& ends, std::size_t with,
-                                      const Vector3d& level,
-                                      const std::array<Vector3d, 2>& normals) {
-          return std::ranges::any_of(ends, [&](std::size_t corner) {
-            return is_over_seam(own, first_corner + corner, with, level, normal, turned(normals));
-          });
-        };
-        if (crosses_seam(a, polyhedron.first_corner, solid.ends(crossing.edge), b,
-                         place + crossing.contact.depth * normal, ridge.normals) ||
-            (polyhedron_b != nullptr &&
-             crosses_seam(b, polyhedron_b->first_corner,
-                          polyhedron_b->solid->ends(static_cast<std::size_t>(ridge.id)), a, place,
-                          edges[crossing.edge].normals)))
-          continue;
         add({{static_cast<std::int64_t>(a), static_cast<std::int64_t>(b),
               numbered(edge_kind, p, static_cast<std::int64_t>(crossing.edge)), other + ridge.id},
              place,

@@ -10,27 +10,12 @@
 #include "contact/geometry/ball_on_surface.h"
 #include "contact/geometry/edge_on_ridge.h"
 #include "contact/geometry/rim_on_round.h"
-#include "dts/workspace.h"
+#include "simulation/dts_engine/common_floor.h"
+#include "simulation/dts_engine/object_motion.h"
 #include "simulation/dts_engine/shape_object.h"
-#include "simulation/engine_interface/engine.h"
 #include "simulation/experiment/contact_materials.h"
 
 namespace hookpoint::simulation {
-
-/// How an object moves, world axes.
-struct ObjectMotion : dts::BodyMotion<double> {
-  Vector3d belt;  ///< velocity of its material over its surface, beside that [m/s]
-
-  Vector3d to_world(const Vector3d& p_O) const { return p_WB + R_WB * p_O; }
-  Vector3d to_object(const Vector3d& p_W) const { return transpose_times(R_WB, p_W - p_WB); }
-  Vector3d velocity_at(const Vector3d& p_W) const { return v_WB + cross(w_WB, p_W - p_WB); }
-};
-
-/// Of a robot's body.
-ObjectMotion motion_of(const BodyState& body);
-
-/// Of the terrain or an obstacle, `elapsed` [s] after the step's start.
-ObjectMotion motion_of(const SurfaceMotion& surface, double elapsed);
 
 /// Which feature of which object touches which of which other.
 struct ContactKey {
@@ -103,9 +88,6 @@ class DetectionMemory {
   /// Likewise of a on a third object, or of a third object on b, however far.
   virtual std::optional<PressingPlace> place_beside(std::size_t a, std::size_t b,
                                                     const Vector3d& place) const = 0;
-  /// The committed contact of a corner of `own` on a third object beside `other`. O(log contacts + those of own).
-  virtual std::optional<PressingPlace> corner_beside(std::size_t own, std::size_t corner,
-                                                     std::size_t other) const = 0;
   /// From where the law counts the depth of `contact`, which continues `beside` on another object, so that it
   /// holds no more energy than that one would: 0 between the same materials [m].
   virtual double begun_at(const ShapeContact& contact, const PressingPlace& beside) const = 0;
@@ -174,8 +156,6 @@ class ShapeDetection {
                        std::size_t a, std::size_t b, std::int64_t other, int material_b);
   bool stands_on_face(std::size_t of, std::size_t corner, std::size_t on, const Vector3d& place,
                       const Vector3d& normal) const;
-  bool is_over_seam(std::size_t own, std::size_t corner, std::size_t other, const Vector3d& level,
-                    const Vector3d& normal, const std::array<Vector3d, 2>& faces) const;
   bool is_corners(const contact::EdgeContact& at, const contact::Surface& surface,
                   const contact::Ridge& ridge, const contact::Polyhedron& solid, std::size_t edge,
                   std::size_t a, const ObjectMotion& frame) const;
@@ -184,6 +164,10 @@ class ShapeDetection {
   contact::BodyEdge edge_of(const PolyhedronFeature& polyhedron, std::size_t ridge, std::size_t a,
                             const ObjectMotion& frame) const;
   void add(const ShapeContact& contact);
+  /// Of a floor that several objects make up.
+  FloorPart part_touched(const ShapeContact& contact) const;
+  ShapeContact* shared_with(const ShapeContact& contact);
+  void replace(ShapeContact& place, const ShapeContact& contact);
   /// ShapeContact::radius.
   double radius_of(const ShapeContact& contact) const;
   double radius_of_a(const ContactKey& key) const;
@@ -202,6 +186,7 @@ class ShapeDetection {
   std::vector<std::size_t>
       carriers_;  ///< of each object that is a body: the object that carries it
   std::vector<contact::Region> boxes_;
+  bool has_floors_ = false;               ///< of several objects that no force moves
   std::vector<std::size_t> order_;        ///< of the sweep
   std::vector<contact::BodyEdge> edges_;  ///< of the object whose edges are looked at
   // Of the detection that is under way.

@@ -184,6 +184,80 @@ TEST(FlushBoxes, KeepTheEnergyBetweenMaterials) {
   }
 }
 
+/// A body of 1 kg whose lowest place is the origin of z.
+struct Slider {
+  std::string name, shape, orientation;
+  double height;  ///< of its base [m]
+};
+const std::vector<Slider> sliders{
+    {"box", "Shape.Box { dimensions = 0.04,0.04,0.04; mass = 1 kg; }", "0,0,0.3", 0.02},
+    {"ball", "Shape.Sphere { radius = 0.02; mass = 1 kg; }", "0,0,0", 0.02},
+    {"cylinder on its end", "Shape.Cylinder { radius = 0.02; length = 0.04; mass = 1 kg; }",
+     "0,0,0", 0.02},
+    {"cylinder on its side", "Shape.Cylinder { radius = 0.02; length = 0.04; mass = 1 kg; }",
+     "pi/2,0,0.1", 0.02},
+    {"capsule", "Shape.Capsule { radius = 0.02; length = 0.04; mass = 1 kg; }", "pi/2,0,0.1", 0.02},
+    {"disc", "Shape.Disc { radius = 0.02; mass = 1 kg; }", "0,0,0", 0.},
+    {"cone on its end",
+     "Shape.Legcone { length = 0.04; proximal_radius = 0.02; distal_radius = 0.01; mass = 1 kg; }",
+     "0,-pi/2,0", 0.},
+    {"hull",
+     "Shape.Hull { points = 0.02,0,0.02, -0.02,0.01,0.02, -0.02,-0.01,0.02, 0.02,0,-0.02, "
+     "-0.02,0.01,-0.02, -0.02,-0.01,-0.02; mass = 1 kg; }",
+     "0,0,0.2", 0.02}};
+
+std::string slider_on(const Slider& slider, const std::string& law, double friction,
+                      const std::string& floor, const std::string& velocity, double y) {
+  return "World w { deltat = 0.1 ms; contact = " + law + "; " + material(friction) + floor +
+         fmt::format(
+             "Robot b {{ Base.mobile {{ location = -0.06,{},{}; orientation = {}; velocity = {}; {} }} }} }}",
+             y, slider.height, slider.orientation, velocity, slider.shape);
+}
+
+// No edge of a tile is one of the floor, and none of its corners: whatever slides or rolls over them moves as on one
+// tile, along a seam, across it and over the place where four tiles, or three, meet.
+TEST(FlushBoxes, MoveAllBodiesAsOneTileDoes) {
+  const std::string one = tile("p", -0.2, 0., 0.4) + tile("q", 0., 0., 0.4);
+  const std::string whole =
+      "Obstacle.Box p { location = 0,0,-0.05; dimensions = 0.4,0.4,0.1; material = s; } ";
+  const std::string three =
+      tile("p", -0.2, 0., 0.4) + tile("q", 0., 0.1, 0.2) + tile("r", 0., -0.1, 0.2);
+  for (const Slider& slider : sliders) {
+    for (const double friction : {0., 0.3}) {
+      for (const auto& [velocity, y] : std::vector<std::pair<std::string, double>>{
+               {"0.9,0,0", 0.}, {"0.9,0,0", 0.003}, {"0.7,-0.7,0", 0.06}}) {
+        Running truth(slider_on(slider, "hookpoint", friction, whole, velocity, y));
+        truth.step(1400);
+        for (const std::string& floor : {one, floors[4].boxes, three}) {
+          Running run(slider_on(slider, "hookpoint", friction, floor, velocity, y));
+          run.step(1400);
+          for (const char* port : {"w.b.position.x", "w.b.position.y", "w.b.position.z"})
+            EXPECT_NEAR(run[port], truth[port], 1e-7)
+                << slider.name << ", friction " << friction << ", at " << velocity << ": " << port;
+          for (const std::string& notice : run.world().state().notices)
+            ADD_FAILURE() << slider.name << ": " << notice;
+        }
+      }
+    }
+  }
+}
+
+// However the corners of a box coincide with seams and with corners of tiles, each carries a fourth.
+TEST(FlushBoxes, CarryWhatStandsOnTheirSeamsAsOneTileDoes) {
+  const double depth = g / (4. * stiffness);
+  for (const char* box :
+       {"location = 0.02,0.02,0.02; Shape.Box { dimensions = 0.04,0.04,0.04; mass = 1 kg; }",
+        "location = -0.06,0.04,0.02; Shape.Box { dimensions = 0.04,0.08,0.04; mass = 1 kg; }",
+        "location = 0,0,0.02; Shape.Box { dimensions = 0.04,0.04,0.04; mass = 1 kg; }",
+        "location = -0.1,-0.1,0.02; Shape.Box { dimensions = 0.2,0.2,0.04; mass = 1 kg; }"}) {
+    Running run("World w { deltat = 0.1 ms; contact = hookpoint; " + material(0.5) +
+                floors[4].boxes + "Robot b { Base.mobile { " + box + " } } }");
+    run.step(5000);
+    EXPECT_NEAR(run["w.b.position.z"], 0.02 - depth, 1e-3 * depth) << box;
+    EXPECT_NEAR(run["w.b.velocity.z"], 0., 1e-6) << box;
+  }
+}
+
 // One that is higher by a millimetre is a step, and stops the box.
 TEST(FlushBoxes, AreAStepWhereOneIsHigher) {
   Running run(
