@@ -62,12 +62,24 @@ bool is_on_level_face(const StandingObjects& world, std::size_t except, const Ve
       });
 }
 
-/// Whether one of them holds a place.
-bool is_inside(const StandingObjects& world, const Vector3d& place) {
-  return any_near(world, none, place,
-                  [](const contact::Surface& surface, const Vector3d& own, const ObjectMotion&) {
-                    return surface.contains(own);
-                  });
+/// Whether one of them lies against a face at `place`, whose normal there is `out`, and has no other face nearer to the
+/// place than `depth` [m].
+bool is_covered(const StandingObjects& world, const Vector3d& place, const Vector3d& out,
+                double depth) {
+  constexpr double against = -0.1;  // cosine
+  return any_near(
+      world, none, place + around * out,
+      [&](const contact::Surface& surface, const Vector3d& own, const ObjectMotion& motion) {
+        if (!surface.contains(own)) return false;
+        const Vector3d own_out = transpose_times(motion.R_WB, out);
+        bool covered = true;
+        surface.faces(contact::region_about(own, depth + flush), [&](const contact::Face& face) {
+          const double below = -face.height(own);
+          const bool lies_against = below <= 2. * around && dot(face.normal, own_out) < against;
+          covered = covered && (lies_against || below >= depth - flush);
+        });
+        return covered;
+      });
 }
 
 /// The convex edges of a face on which a place of its plane lies: none, an edge, or two in a corner.
@@ -120,12 +132,14 @@ FloorPart part_touched(const StandingObjects& world, const TouchedPlace& at) {
       else if (is_touched && is_on_level_face(world, at.of, at.place, motion.R_WB * face.normal))
         part = FloorPart::shared;
     }
-    // Behind the face beyond an edge, where what touches reaches up to it and another solid covers the place.
+    // Behind the face beyond an edge, where what touches reaches up to it and another solid covers the place up to
+    // there. At the foot of a riser the place is nearer to the tread than to any edge behind which it could be.
     for (const contact::FaceEdge& edge : edges) {
       if (edge.fold != contact::Fold::convex || part == FloorPart::hidden) continue;
-      const Vector3d on_edge = own - dot(own - edge.point, edge.outward) * edge.outward;
+      const double inward = -dot(own - edge.point, edge.outward);
+      const Vector3d on_edge = own + inward * edge.outward;
       const contact::Region there = contact::region_about(motion.to_world(on_edge), 0.);
-      if (!overlap(world.boxes[at.by], there) || !is_inside(world, at.place + around * at.out))
+      if (!overlap(world.boxes[at.by], there) || !is_covered(world, at.place, at.out, inward))
         continue;
       const contact::Face beyond = surface.face(edge.beyond);
       const EdgesAt end = edges_at(beyond.all_edges(), on_edge);

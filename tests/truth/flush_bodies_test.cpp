@@ -258,6 +258,26 @@ TEST(FlushBoxes, CarryWhatStandsOnTheirSeamsAsOneTileDoes) {
   }
 }
 
+// At the foot of a riser tread and riser press, also on a body that reaches below the tread beside it, to where the
+// undersides of both boxes are one face.
+TEST(FlushBoxes, PressAtTheFootOfARiser) {
+  const double push = 20., weight = 2. * g;
+  const auto beside = [](double y) {
+    return fmt::format(
+        "Shape.Box {{ location = 0,{},-0.07; dimensions = 0.06,0.04,0.3; mass = 0.5 kg; }} ", y);
+  };
+  Running run(
+      "World w { deltat = 0.1 ms; contact = hookpoint; " + material(0.) +
+      tile("p", 0.1, 0., 1., 0.1) +
+      "Obstacle.Box q { location = 0.6,0,0.1; dimensions = 0.6,1,0.2; material = s; } "
+      "Robot b { Base.mobile { location = 0.28,0,0.12; Shape.Box { dimensions = 0.04,0.04,0.04; mass = 1 kg; } " +
+      beside(0.6) + beside(-0.6) + "} } Force push { body = b.base; force = 20,0,0; } }");
+  run.step(10000);
+  EXPECT_NEAR(run["w.b.position.x"], 0.28 + push / (4. * stiffness), 1e-6);
+  EXPECT_NEAR(run["w.b.position.z"], 0.12 - weight / (4. * stiffness), 1e-6);
+  for (const std::string& notice : run.world().state().notices) ADD_FAILURE() << notice;
+}
+
 // One that is higher by a millimetre is a step, and stops the box.
 TEST(FlushBoxes, AreAStepWhereOneIsHigher) {
   Running run(
