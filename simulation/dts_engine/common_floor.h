@@ -18,36 +18,36 @@ inline bool may_be_of_floor(const ShapeObject& object) {
   return !object.movable && (object.ground || !object.polyhedra.empty());
 }
 
-/// All objects of a World as they stand.
-struct StandingObjects {
-  std::span<const ShapeObject> objects;
-  std::span<const ObjectMotion> motions;
-  /// About each, along the world's axes; of the terrain unused.
-  std::span<const contact::Region> boxes;
+/// What may be of a floor near a body, world axes.
+struct NearFloor {
+  std::span<const ShapeObject> objects;   ///< all of the World
+  std::span<const ObjectMotion> motions;  ///< of each
+  /// Numbers of those that may be of a floor, and whose box meets the body's with as much again on each side.
+  std::span<const std::size_t> near;
+  contact::Region body;  ///< the body's box
 };
 
-/// Where an object that no force moves is touched, world axes.
+/// Where the body touches an object of a floor, world axes.
 struct TouchedPlace {
   std::size_t of = 0;    ///< that object
-  std::size_t by = 0;    ///< the one that touches it
   Vector3d place;        ///< on its surface [m]
-  Vector3d out;          ///< unit, against which it is pressed
-  bool on_face = false;  ///< by a place, and not along an edge
+  Vector3d out;          ///< unit, out of the object, along the contact's normal
+  bool on_face = false;  ///< touched by a point of the body, not where two edges cross
 };
 
-/// How what objects that no force moves make up together is touched there.
+/// What the place is of the floor that the near objects make up together.
 enum class FloorPart {
-  own,     ///< as the object alone
-  hidden,  ///< not: there is no edge, no corner that stands out, or it is behind a face that continues
-  shared,  ///< on a face, at its end, where another object has a level face, too
-  inside   ///< likewise, where no corner stands out
+  own,     ///< what it is of the object alone
+  hidden,  ///< nothing that can be touched: no edge or corner of the floor, or behind one of its faces
+  shared,  ///< a place at the end of a face, where another object has a level face, too
+  inside   ///< likewise, and the floor has no corner there
 };
-/// O(objects), allocates nothing.
-FloorPart part_touched(const StandingObjects& world, const TouchedPlace& at);
+/// O(near objects), allocates nothing.
+FloorPart part_touched(const NearFloor& floor, const TouchedPlace& at);
 
 /// Whether a face of object `of` continues beyond an edge of it, where `place` is nearest to that edge. Face, edge and
-/// place in the object's frame. O(objects), allocates nothing.
-bool continues_beyond(const StandingObjects& world, std::size_t of, const contact::Face& face,
+/// place in the object's frame. O(near objects), allocates nothing.
+bool continues_beyond(const NearFloor& floor, std::size_t of, const contact::Face& face,
                       const contact::FaceEdge& edge, const Vector3d& place);
 
 }  // namespace hookpoint::simulation

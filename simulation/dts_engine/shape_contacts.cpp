@@ -16,6 +16,8 @@
 namespace hookpoint::simulation {
 namespace {
 
+/// Between the normals of a contact before and after a step, which continue each other: cosine.
+constexpr double alike = 0.5;
 /// A depth that makes no energy worth a name [m].
 constexpr double shallow = 1e-6;
 
@@ -261,7 +263,6 @@ double ShapeContacts::begun_at(const ShapeContact& contact, const PressingPlace&
 }
 
 std::int64_t ShapeContacts::match_key(std::size_t found) const {
-  constexpr double alike = 0.5;  // cosine between normals
   const ShapeContact& contact = found_[found];
   std::int64_t match = -1;
   double nearest = alike;
@@ -286,7 +287,6 @@ bool ShapeContacts::continues(const ShapeContact& contact, const ShapeContact& b
 }
 
 std::int64_t ShapeContacts::match_place(std::size_t found) const {
-  constexpr double alike = 0.5;  // cosine between normals
   const ShapeContact& contact = found_[found];
   std::int64_t match = -1;
   double nearest = same_place;
@@ -313,7 +313,6 @@ std::int64_t ShapeContacts::match_place(std::size_t found) const {
 }
 
 std::int64_t ShapeContacts::match_beside(std::size_t found) const {
-  constexpr double alike = 0.5;  // cosine between normals
   const ShapeContact& contact = found_[found];
   const auto [a, b] =
       std::pair(static_cast<std::size_t>(contact.key.a), static_cast<std::size_t>(contact.key.b));

@@ -169,6 +169,7 @@ ShapeDetection::ShapeDetection(const Experiment& experiment,
   }
   edges_.reserve(most_edges);
   has_floors_ = std::ranges::count_if(objects, may_be_of_floor) > 1;
+  near_floor_.reserve(objects.size());
 }
 
 bool ShapeDetection::may_touch(std::size_t i, std::size_t j) const {
@@ -197,9 +198,11 @@ void ShapeDetection::detect(std::span<const ObjectMotion> motions, const Detecti
   for (const std::size_t i : order_) {
     boxes_[i] = turned(objects_[i].bounds, motions[i].R_WB, motions[i].p_WB);
     boxes_[i] = {boxes_[i].low - reach, boxes_[i].high + reach};
-    if (!objects_[0].ground || !may_touch(0, i)) continue;
-    if (!objects_[0].ground->is_clear_of(near_box(i, motions[0]))) pair(i, 0);
   }
+  near_floor_of_ = objects_.size();  // of none
+  if (objects_[0].ground)
+    for (const std::size_t i : order_)
+      if (may_touch(0, i) && !objects_[0].ground->is_clear_of(near_box(i, motions[0]))) pair(i, 0);
   // Broad phase: in the order of their lower ends along x only the next few can overlap. The order of
   // a step before is nearly right, so that insertion takes O(n).
   for (std::size_t k = 1; k < order_.size(); ++k) {
@@ -233,16 +236,29 @@ void ShapeDetection::pair(std::size_t i, std::size_t j) {
   edges_on(i, j);
 }
 
-FloorPart ShapeDetection::part_touched(const ShapeContact& contact) const {
+NearFloor ShapeDetection::near_floor(std::size_t object) {
+  const contact::Region& body = boxes_[object];
+  if (near_floor_of_ != object) {
+    near_floor_of_ = object;
+    near_floor_.clear();
+    const Vector3d size = body.high - body.low;
+    const contact::Region here{body.low - size, body.high + size};
+    for (std::size_t i = 0; i < objects_.size(); ++i)
+      if (may_be_of_floor(objects_[i]) && (objects_[i].ground || overlap(boxes_[i], here)))
+        near_floor_.push_back(i);
+  }
+  return {objects_, motions_, near_floor_, body};
+}
+
+FloorPart ShapeDetection::floor_part(const ShapeContact& contact) {
   if (!has_floors_) return FloorPart::own;
   const auto a = static_cast<std::size_t>(contact.key.a),
              b = static_cast<std::size_t>(contact.key.b);
-  const StandingObjects world{objects_, motions_, boxes_};
   if (may_be_of_floor(objects_[a]))
-    return simulation::part_touched(world, {a, b, contact.place, -contact.normal, false});
+    return part_touched(near_floor(b), {a, contact.place, -contact.normal, false});
   if (!may_be_of_floor(objects_[b])) return FloorPart::own;
   const Vector3d on_b = contact.place + contact.depth * contact.normal;
-  return simulation::part_touched(world, {b, a, on_b, contact.normal, !contact.fades()});
+  return part_touched(near_floor(a), {b, on_b, contact.normal, !contact.fades()});
 }
 
 // Of the same feature of a on another object of the floor; none: null.
@@ -258,7 +274,7 @@ ShapeContact* ShapeDetection::shared_with(const ShapeContact& contact) {
 }
 
 void ShapeDetection::add(const ShapeContact& contact) {
-  const FloorPart part = part_touched(contact);
+  const FloorPart part = floor_part(contact);
   if (part == FloorPart::hidden) return;
   if (ShapeContact* const other = part != FloorPart::own ? shared_with(contact) : nullptr) {
     // The later object has it, whichever is found first.
@@ -368,7 +384,7 @@ void ShapeDetection::ball_on_surface(const contact::Surface& surface, std::size_
     const double share =
         ball.is_corner ? contact::share_with_corner(surface, place_in_b, at.normal, at.depth) : 1.;
     // A corner inside a floor of several objects takes none.
-    if (share < 1. && part_touched(contact) != FloorPart::inside) contact.weight *= share;
+    if (share < 1. && floor_part(contact) != FloorPart::inside) contact.weight *= share;
     if (taken.beside) contact.begun_at = memory_->begun_at(contact, *taken.beside);
     add(contact);
   }
@@ -531,7 +547,7 @@ void ShapeDetection::rim_on_surface(const contact::Surface& surface, std::size_t
           if (depth <= -reach_) continue;
           const auto continues = [&](const contact::FaceEdge& edge) {
             return has_floors_ && may_be_of_floor(objects_[b]) &&
-                   continues_beyond({objects_, motions_, boxes_}, b, face, edge, points[i]);
+                   continues_beyond(near_floor(a), b, face, edge, points[i]);
           };
           if (is_under(surface, face, points[i], continues))
             on_faces[i].add(points[i], face, depth);

@@ -165,8 +165,10 @@ class ShapeDetection {
                             const ObjectMotion& frame) const;
   void add(const ShapeContact& contact);
   /// Of a floor that several objects make up.
-  FloorPart part_touched(const ShapeContact& contact) const;
+  FloorPart floor_part(const ShapeContact& contact);
   ShapeContact* shared_with(const ShapeContact& contact);
+  /// Of the body `object`.
+  NearFloor near_floor(std::size_t object);
   void replace(ShapeContact& place, const ShapeContact& contact);
   /// ShapeContact::radius.
   double radius_of(const ShapeContact& contact) const;
@@ -187,6 +189,8 @@ class ShapeDetection {
       carriers_;  ///< of each object that is a body: the object that carries it
   std::vector<contact::Region> boxes_;
   bool has_floors_ = false;               ///< of several objects that no force moves
+  std::vector<std::size_t> near_floor_;   ///< NearFloor::near of ...
+  std::size_t near_floor_of_ = 0;         ///< ... this object, in the detection that is under way
   std::vector<std::size_t> order_;        ///< of the sweep
   std::vector<contact::BodyEdge> edges_;  ///< of the object whose edges are looked at
   // Of the detection that is under way.

@@ -242,6 +242,32 @@ TEST(FlushBoxes, MoveAllBodiesAsOneTileDoes) {
   }
 }
 
+// What the floor may be made of, and how exactly it has to be laid: within 0.2 um beside and 0.5 um in height.
+TEST(FlushBoxes, AreOneFloorWithinAMicrometre) {
+  const auto box = [](double x, double top) {
+    return fmt::format("location = {},0,{}; ", x, top - 0.05);
+  };
+  const std::string shape = "dimensions = 0.2,0.4,0.1; ";
+  const auto obstacle = [&](const char* name, double x, double top) {
+    return fmt::format("Obstacle.Box {} {{ {}{}material = s; }} ", name, box(x, top), shape);
+  };
+  const std::vector<Floor> laid{
+      {"a gap", obstacle("p", -0.1 - 1e-7, 0.) + obstacle("q", 0.1 + 1e-7, 0.)},
+      {"higher", obstacle("p", -0.1, 0.) + obstacle("q", 0.1, 0.5e-6)},
+      {"lower", obstacle("p", -0.1, 0.) + obstacle("q", 0.1, -0.5e-6)},
+      {"a fixed robot", "Robot p { Base.fixed { " + box(-0.1, 0.) + "Shape.Box { " + shape +
+                            "mass = 1 kg; material = s; } } } " + obstacle("q", 0.1, 0.)}};
+  for (const Floor& floor : laid) {
+    for (const Slider& slider : sliders) {
+      Running run(slider_on(slider, "hookpoint", 0., floor.boxes, "0.9,0,0", 0.003));
+      run.step(1400);
+      EXPECT_NEAR(run["w.b.velocity.x"], 0.9, 1e-5) << slider.name << ", " << floor.name;
+      for (const std::string& notice : run.world().state().notices)
+        ADD_FAILURE() << slider.name << ", " << floor.name << ": " << notice;
+    }
+  }
+}
+
 // However the corners of a box coincide with seams and with corners of tiles, each carries a fourth.
 TEST(FlushBoxes, CarryWhatStandsOnTheirSeamsAsOneTileDoes) {
   const double depth = g / (4. * stiffness);
