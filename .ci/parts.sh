@@ -13,6 +13,7 @@ status=0  # of the last part that ran
 reports=0 # files in failed/
 insist=0 # 1: a test that is skipped and not in .ci/expected_skips fails
 tidied=() # what tidy reads; all where it is empty
+parsed=(--all) # what syntax reads
 touched=() # tests with the label `full` that the change needs
 lines=60 # of the summary
 : >"$folder/parts"
@@ -171,6 +172,8 @@ run_parts() {
   # With assertions, under the address and undefined-behaviour sanitizers.
   part sanitizers "./test --preset ci${arguments[*]:+ ${arguments[*]}}" bash ./test --preset ci "${checked[@]}" "${arguments[@]}"
   part_with run-clang-tidy tidy 'scripts/tidy FILE' bash scripts/tidy "${tidied[@]}"
+  # Each file by itself, as preset dev compiles it: the other builds read a dozen as one.
+  part syntax 'scripts/check_syntax FILE' bash -c 'scripts/check_presets && scripts/check_syntax "$@"' syntax "${parsed[@]}"
   # What a user sees first, where nothing is installed.
   local bare=('./run --help' './run study configs/studies/creep.hook --quick')
   part_with mmdebstrap clean_room '.ci/full clean_room' bash scripts/clean_room "${bare[@]}"

@@ -21,9 +21,9 @@ endif()
 
 add_library(hookpoint_options INTERFACE)
 target_include_directories(hookpoint_options INTERFACE ${PROJECT_SOURCE_DIR})
-# Where files are read as one, a name in one of them shadows another's: the builds that read them apart look for that.
+# A parameter may have a member's name, another local variable's it may not.
 target_compile_options(hookpoint_options INTERFACE
-  -Wall -Wextra -Wpedantic $<$<NOT:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wshadow> -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
+  -Wall -Wextra -Wpedantic $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   -Wcast-align -Wunused -Wdouble-promotion -Wformat=2)
 # GCC 12 warns, falsely and only it, of std::string's own operator+ (GCC bugs 105651, 105562) and, at -O3, of Eigen's small vectors.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)

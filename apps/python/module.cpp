@@ -43,10 +43,9 @@ py::dict run_world(PythonWorld& world, std::optional<double> duration, const py:
 }
 
 void add_world(py::module_& module) {
-  py::class_<PythonWorld> world(module, "World", "An experiment that runs, from time 0 on.");
-  add_copying(world);
-  world
-      .def(
+  py::class_<PythonWorld> type(module, "World", "An experiment that runs, from time 0 on.");
+  add_copying(type);
+  type.def(
           "step",
           [](PythonWorld& world, std::int64_t count, const py::object& callback,
              std::int64_t every) { world.step(count, callback, every); },
@@ -191,13 +190,12 @@ py::array_t<double> reset_batch(PythonBatch& batch, const py::object& mask, cons
 }
 
 void add_batch(py::module_& module) {
-  py::class_<PythonBatch> batch(
+  py::class_<PythonBatch> type(
       module, "Batch",
       "Worlds of one file, stepped by threads, with arrays in and out. Each is bit for bit a World "
       "by itself, for any number of threads.");
-  add_copying(batch);
-  batch
-      .def(py::init(&batch_of), py::arg("file"), py::arg("worlds"), py::kw_only(),
+  add_copying(type);
+  type.def(py::init(&batch_of), py::arg("file"), py::arg("worlds"), py::kw_only(),
            py::arg("threads") = 0, py::arg("seeds") = py::none(),
            py::arg("observations") = py::list(), py::arg("actions") = py::list(),
            py::arg("done") = py::none(), py::arg("set") = py::dict(),

@@ -208,11 +208,11 @@ std::optional<TunePlan> make_tune_plan(const Object& root, const Object& tune,
   refuse_fixed(tune, plan.varied, diagnostics);
   if (subject != nullptr) refuse_fixed(*subject, plan.varied, diagnostics);
   add_measures(plan, tune, *own, diagnostics);
-  for (const Object* block : tune.children_of("Objective"))
-    if (auto objective = load_objective(*block, plan.runs, diagnostics))
+  for (const Object* child : tune.children_of("Objective"))
+    if (auto objective = load_objective(*child, plan.runs, diagnostics))
       plan.objectives.push_back(std::move(*objective));
-  for (const Object* block : tune.children_of("Require"))
-    if (auto requirement = load_requirement(*block, plan.runs, diagnostics))
+  for (const Object* child : tune.children_of("Require"))
+    if (auto requirement = load_requirement(*child, plan.runs, diagnostics))
       plan.requirements.push_back(std::move(*requirement));
   set_search(plan, block);
   check_search(plan, tune, block, own->experiment.deltat, diagnostics);

@@ -18,12 +18,15 @@ commit
 # says FILE STATUS TEXT: a command of the project that prints a text and ends so.
 says() {
   printf '#!/bin/bash\ncat <<"TEXT"\n%s\nTEXT\nexit %s\n' "$3" "$2" >"$project/$1"
+  chmod +x "$project/$1"
 }
 # What passes, until a case says otherwise.
 begin() {
   says scripts/setup 0 ""
   says scripts/check_format 0 ""
   says scripts/tidy 0 ""
+  says scripts/check_presets 0 ""
+  says scripts/check_syntax 0 ""
   says scripts/clean_room 0 "clean_room: all fine"
   says test 0 "10 passed, 0 failed, 0 skipped"
   limit=4800
@@ -51,13 +54,13 @@ expect "all well: status" "$status" 0
 expect "all well: last line" "$(tail -n 1 <<<"$said")" "21 passed, 0 failed, 0 skipped"
 says_line "all well: a part" "release: 10 passed, 0 failed, 0 skipped"
 run full
-expect "all well, everything: last line" "$(tail -n 1 <<<"$said")" "34 passed, 0 failed, 0 skipped"
+expect "all well, everything: last line" "$(tail -n 1 <<<"$said")" "35 passed, 0 failed, 0 skipped"
 # row PART: what is recorded of it.
 row() { sed -nE "s/^\| $1 \| (.*) \| [0-9]+ min [0-9]+ s \|$/\1/p" "$project/.ci/last_full.md"; }
 head() { git -C "$project" rev-parse HEAD; }
 first=$(head)
 expect "each part's result is recorded" "$(row release)" "$first | 10 | 0 | 0"
-expect "each part has a row" "$(grep -c "$first" "$project/.ci/last_full.md")" 7
+expect "each part has a row" "$(grep -c "$first" "$project/.ci/last_full.md")" 8
 
 # What changed since then decides which of its parts are added.
 commit
@@ -68,6 +71,7 @@ echo 'int a;' >"$project/studies/a.cpp"
 commit
 run run
 expect "a changed source: it is read by clang-tidy" "$(grep -c '^tidy: 1 passed' <<<"$said")" 1
+expect "a changed source: it is parsed by itself" "$(grep -c '^syntax: 1 passed' <<<"$said")" 1
 expect "a changed source: no bare machine" "$(grep -c '^clean_room' <<<"$said" || true)" 0
 echo '#include <zlib.h>' >>"$project/studies/a.cpp"
 commit
