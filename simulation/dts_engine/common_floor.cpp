@@ -120,12 +120,11 @@ FloorPart part_touched(const NearFloor& floor, const TouchedPlace& at) {
       return;
     const bool is_touched = at.on_face && norm(tangential(out, face.normal)) <= tilted;
     const auto edges = face.all_edges();
-    if (const EdgesAt here = edges_at(edges, own); here.edge != nullptr) {
-      if (continues_at(floor, motion, face.normal, here, own))
-        part = is_touched ? FloorPart::inside : FloorPart::hidden;
-      else if (is_touched && is_on_level_face(floor, at.of, at.place, motion.R_WB * face.normal))
-        part = FloorPart::shared;
-    }
+    const EdgesAt here = edges_at(edges, own);
+    if (here.edge != nullptr && continues_at(floor, motion, face.normal, here, own))
+      part = is_touched ? FloorPart::inside : FloorPart::hidden;
+    else if (is_touched && is_on_level_face(floor, at.of, at.place, motion.R_WB * face.normal))
+      part = FloorPart::shared;
     // Behind the face beyond an edge, where what touches reaches up to it and another solid covers the place up to
     // there. At the foot of a riser the place is nearer to the tread than to any edge behind which it could be.
     for (const contact::FaceEdge& edge : edges) {

@@ -39,8 +39,8 @@ struct TouchedPlace {
 enum class FloorPart {
   own,     ///< what it is of the object alone
   hidden,  ///< nothing that can be touched: no edge or corner of the floor, or behind one of its faces
-  shared,  ///< a place at the end of a face, where another object has a level face, too
-  inside   ///< likewise, and the floor has no corner there
+  shared,  ///< a place on a face, where another object has a level face, too
+  inside   ///< likewise, at its end, and the floor has no corner there
 };
 /// O(near objects), allocates nothing.
 FloorPart part_touched(const NearFloor& floor, const TouchedPlace& at);

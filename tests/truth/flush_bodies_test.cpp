@@ -284,6 +284,34 @@ TEST(FlushBoxes, CarryWhatStandsOnTheirSeamsAsOneTileDoes) {
   }
 }
 
+// A mat whose top is level with the ground that it lies in takes what comes onto it from the ground, by its own
+// friction, and no more than that.
+TEST(FlushBoxes, TakeOverFromTheGroundTheyLieIn) {
+  const double speed = 0.9, friction = 0.3;
+  const std::string ground =
+      "Terrain.Flat f { material = s; } " + material(friction, "rough") +
+      "Obstacle.Box p { location = 0.2,0,-0.05; dimensions = 0.4,0.4,0.1; material = rough; } ";
+  for (const Slider& slider : sliders) {
+    Running run(slider_on(slider, "hookpoint", 0., ground, "0.9,0,0", 0.003));
+    const double begin = run["w.b.position.x"];
+    run.step(300);
+    EXPECT_NEAR(run["w.b.velocity.x"], speed, 1e-9) << slider.name;
+    EXPECT_NEAR(run["w.b.position.x"], begin + 0.03 * speed, 1e-6) << slider.name;
+    run.step(1700);
+    EXPECT_GT(run["w.b.position.x"], 0.05) << slider.name;
+    for (const std::string& notice : run.world().state().notices)
+      ADD_FAILURE() << slider.name << ": " << notice;
+  }
+  // Until the rear corners of the box follow, the front ones alone brake it. As friction acts half of its length
+  // below its middle, they carry N = m g/(2 - mu) then.
+  const double length = 0.04;
+  const double way = speed * speed / (2. * friction * g) + 0.5 * length - length / (2. - friction);
+  Running run(slider_on(sliders[0], "hookpoint", 0., ground, "0.9,0,0", 0.003));
+  run.step(5000);
+  EXPECT_NEAR(run["w.b.position.x"], way, 0.001 * way);
+  EXPECT_NEAR(run["w.b.position.z"], 0.02 - g / (4. * stiffness), 1e-6);
+}
+
 // At the foot of a riser tread and riser press, also on a body that reaches below the tread beside it, to where the
 // undersides of both boxes are one face.
 TEST(FlushBoxes, PressAtTheFootOfARiser) {
